@@ -1,0 +1,1 @@
+"""Equivalent homogeneous materials of layered and fibrous ones, computed from their parts."""
