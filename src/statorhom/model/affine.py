@@ -1,0 +1,133 @@
+"""Stiffness and mass of half a slot pitch, affine in the Hooke entries and the densities.
+
+K = Σ over regions and entries of θ_q(C) K_q exactly, M = Σ ρ M_region; every K_q is assembled once per mesh.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from statorhom.errors import MaterialError
+from statorhom.materials.hooke import Hooke
+from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.model.assembly import (
+    HOOKE_ENTRIES,
+    BlockPattern,
+    block_pattern,
+    chunks,
+    mass_blocks,
+    node_blocks,
+    stiffness_blocks,
+)
+from statorhom.model.element import gauss_table
+
+
+@dataclass(frozen=True)
+class Material:
+    """Hooke's matrix in cylindrical axes (Pa) and density (kg/m³) of a region."""
+
+    hooke: Hooke
+    density: float
+
+
+Materials = Mapping[str, Material]
+
+
+def hooke_coefficients(hooke: Hooke) -> np.ndarray:
+    """The nine entries C11, C22, C33, C12, C13, C23, C44, C55, C66 (Pa).
+
+    Raises
+    ------
+    MaterialError
+        If the material is not orthotropic in the cylindrical axes: such a stator has no mirror symmetry.
+    """
+    matrix = hooke.matrix
+    rest = matrix.copy()
+    for i, j in HOOKE_ENTRIES:
+        rest[i, j] = rest[j, i] = 0.0
+    if np.abs(rest).max() > 1e-9 * np.abs(matrix).max():
+        raise MaterialError("a region's material must be orthotropic with its axes along r, θ and z")
+    return np.array([matrix[i, j] for i, j in HOOKE_ENTRIES])
+
+
+@dataclass(frozen=True)
+class AffineModel:
+    """Half a slot pitch before its materials are known.
+
+    Parameters
+    ----------
+    mesh : the mesh.
+    pattern : node couplings.
+    stiffness : region → (9, places, 3, 3) block data per unit Hooke entry (m).
+    mass : region → (places, 3, 3) block data per unit density (m³).
+    volumes : region → volume in the whole stator's mesh (m³).
+    """
+
+    mesh: HalfPitchMesh
+    pattern: BlockPattern
+    stiffness: Mapping[str, np.ndarray]
+    mass: Mapping[str, np.ndarray]
+    volumes: Mapping[str, float]
+
+    @property
+    def size(self) -> int:
+        """Degrees of freedom of the half pitch."""
+        return 3 * len(self.mesh.nodes)
+
+    def stiffness_matrix(self, materials: Materials) -> sp.csr_array:
+        """K of the half pitch (N/m)."""
+        data = sum(
+            np.tensordot(hooke_coefficients(materials[region].hooke), blocks, axes=1)
+            for region, blocks in self.stiffness.items()
+        )
+        return self.pattern.matrix(np.asarray(data))
+
+    def region_stiffness(self, region: str, material: Material) -> sp.csr_array:
+        """Contribution of one region to K (N/m)."""
+        return self.pattern.matrix(
+            np.tensordot(hooke_coefficients(material.hooke), self.stiffness[region], axes=1)
+        )
+
+    def mass_matrix(self, materials: Materials) -> sp.csr_array:
+        """M of the half pitch (kg)."""
+        data = sum(materials[region].density * blocks for region, blocks in self.mass.items())
+        return self.pattern.matrix(np.asarray(data))
+
+    def stiffness_term(self, region: str, entry: int) -> sp.csr_array:
+        """K_q of one Hooke entry (index into `HOOKE_ENTRIES`) of one region."""
+        return self.pattern.matrix(self.stiffness[region][entry])
+
+    def mass_term(self, region: str) -> sp.csr_array:
+        """M per unit density of one region."""
+        return self.pattern.matrix(self.mass[region])
+
+
+def assemble(mesh: HalfPitchMesh) -> AffineModel:
+    """Assemble all affine terms of a mesh."""
+    pattern = block_pattern(mesh.elements, len(mesh.nodes))
+    stiffness, mass, volumes = {}, {}, {}
+    for i, name in enumerate(mesh.regions):
+        stiffness[name], mass[name], half = _region_terms(mesh, pattern, i)
+        volumes[name] = 2 * mesh.slots * half
+    return AffineModel(mesh, pattern, stiffness, mass, volumes)
+
+
+def _region_terms(
+    mesh: HalfPitchMesh, pattern: BlockPattern, region: int
+) -> tuple[np.ndarray, np.ndarray, float]:
+    """Stiffness terms, mass and volume of one region; only its own elements are summed."""
+    gather = pattern.part(np.flatnonzero(mesh.region == region))
+    stiffness: list[list[np.ndarray]] = [[] for _ in HOOKE_ENTRIES]
+    mass = []
+    volume = 0.0
+    for _, geometry in chunks(mesh, region):
+        for term, matrices in zip(stiffness, stiffness_blocks(geometry), strict=True):
+            term.append(node_blocks(matrices))
+        mass.append(node_blocks(mass_blocks(geometry, gauss_table().values)))
+        volume += float(geometry.volume.sum())
+    terms = np.stack([gather(np.concatenate(term)) for term in stiffness])
+    return terms, gather(np.concatenate(mass)), volume

@@ -1,0 +1,136 @@
+"""The mesh's own error: the same modes on refined meshes, extrapolated to infinitely fine ones."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from statorhom.model.free_modes import FreeModes
+from statorhom.model.stator_mode import StatorMode
+
+# Re-entrant corners bound the order of convergence of frequencies from below, smooth solutions from above.
+ORDERS = (1.2, 3.0)
+LARGEST_STEP = 0.07  # of ln f from mesh to mesh; beyond it, it is another mode
+USUAL_ORDER = 2.3  # of graded meshes of slotted cores (measured on the 36-slot machine)
+
+ModeKey = tuple[int, int, int]
+
+
+@dataclass(frozen=True)
+class ModeConvergence:
+    """One mode on a series of meshes.
+
+    Parameters
+    ----------
+    key : (order, axial, rank): rank counts modes of the same name from below.
+    dof : degrees of freedom of the whole stator's meshes.
+    frequency_hz : on these meshes.
+    extrapolated_hz : on an infinitely fine one.
+    sd : relative standard deviation of the extrapolation.
+    """
+
+    key: ModeKey
+    dof: tuple[int, ...]
+    frequency_hz: tuple[float, ...]
+    extrapolated_hz: float
+    sd: float
+
+    @property
+    def factor(self) -> float:
+        """Extrapolated over the coarsest mesh's frequency."""
+        return self.extrapolated_hz / self.frequency_hz[0]
+
+
+def mode_keys(modes: Iterable[StatorMode]) -> dict[ModeKey, StatorMode]:
+    """Visible modes by (order, axial, rank); modes must be sorted by frequency."""
+    found: dict[ModeKey, StatorMode] = {}
+    for mode in modes:
+        if mode.order is None or mode.axial is None:
+            continue
+        rank = 0
+        while (mode.order, mode.axial, rank) in found:
+            rank += 1
+        found[(mode.order, mode.axial, rank)] = mode
+    return found
+
+
+def converge(
+    sizes: Sequence[float], dofs: Sequence[int], solutions: Sequence[FreeModes]
+) -> tuple[ModeConvergence, ...]:
+    """Extrapolate every mode that all meshes have.
+
+    Parameters
+    ----------
+    sizes : relative element sizes, coarsest first (1, 1/1.5, …).
+    dofs : of the whole stator's meshes.
+    solutions : modes at the same materials.
+    """
+    tables = [mode_keys(solution.modes) for solution in solutions]
+    found = []
+    for key, mode in tables[0].items():
+        series = _series(key, mode.frequency_hz, tables[1:])
+        if series is not None:
+            found.append(_mode(key, sizes, dofs, series))
+    return tuple(found)
+
+
+def _series(key: ModeKey, first_hz: float, finer: Sequence[dict[ModeKey, StatorMode]]) -> list[float] | None:
+    """Frequencies of a mode from mesh to mesh: the next one of its name, None where it is lost.
+
+    Ranks would not do: a mode that hardly moves the surface may be visible on one mesh alone.
+    """
+    series = [first_hz]
+    for table in finer:
+        same = [mode.frequency_hz for k, mode in table.items() if k[:2] == key[:2]]
+        nearest = min(same, key=lambda f: abs(np.log(f / series[-1])), default=None)
+        if nearest is None or abs(np.log(nearest / series[-1])) > LARGEST_STEP:
+            return None
+        series.append(nearest)
+    return series
+
+
+def _mode(
+    key: ModeKey, sizes: Sequence[float], dofs: Sequence[int], frequencies: list[float]
+) -> ModeConvergence:
+    limit, spread = extrapolate(np.asarray(sizes), np.asarray(frequencies))
+    return ModeConvergence(key, tuple(dofs), tuple(frequencies), limit, spread / limit)
+
+
+def extrapolate(sizes: np.ndarray, frequencies: np.ndarray) -> tuple[float, float]:
+    """Richardson extrapolation f = f₀ + C hᵖ to h = 0.
+
+    Parameters
+    ----------
+    sizes : (k,) element sizes, descending.
+    frequencies : (k,).
+
+    Returns
+    -------
+    limit, sd : f₀ and half the distance to what the bounds of p would give.
+
+    Notes
+    -----
+    With three meshes or more p comes from the data, within `ORDERS`; with two it is `USUAL_ORDER`.
+    """
+    if len(sizes) < 2:
+        return float(frequencies[-1]), 0.01 * float(frequencies[-1])
+    p = _observed_order(sizes, frequencies) if len(sizes) > 2 else USUAL_ORDER
+    low, limit, high = (_limit(sizes, frequencies, q) for q in (ORDERS[0], p, ORDERS[1]))
+    return limit, 0.5 * max(abs(limit - low), abs(limit - high), 0.1 * abs(limit - frequencies[-1]))
+
+
+def _limit(sizes: np.ndarray, frequencies: np.ndarray, p: float) -> float:
+    a, b = sizes[-2] ** p, sizes[-1] ** p
+    return float((frequencies[-1] * a - frequencies[-2] * b) / (a - b))
+
+
+def _observed_order(sizes: np.ndarray, frequencies: np.ndarray) -> float:
+    f1, f2, f3 = frequencies[-3:]
+    h1, h2, h3 = sizes[-3:]
+    if (f1 - f2) * (f2 - f3) <= 0:
+        return USUAL_ORDER  # not monotonic: the series tells no order
+    trial = np.linspace(*ORDERS, 200)
+    ratio = (h1**trial - h2**trial) / (h2**trial - h3**trial)
+    return float(trial[np.argmin(np.abs(np.log(ratio) - np.log((f1 - f2) / (f2 - f3))))])

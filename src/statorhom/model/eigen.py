@@ -1,0 +1,114 @@
+"""Lowest eigenpairs of a sparse symmetric pair, every one below a given frequency."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.linalg import eigh
+from scipy.sparse.linalg import LinearOperator, eigsh, splu
+from threadpoolctl import threadpool_limits
+
+from statorhom.errors import SolverError
+
+# shift below zero, as a part of the band's highest eigenvalue: rigid bodies keep the matrix definite
+SHIFT = 0.05
+
+Solve = Callable[[np.ndarray], np.ndarray]
+
+
+def factorize(matrix: sp.csr_array) -> Solve:
+    """Sparse LU of a symmetric positive definite matrix (SuperLU without pivoting, minimum degree of A + Aᵀ).
+
+    Raises
+    ------
+    SolverError
+        If the matrix is singular or has entries that are not numbers.
+    """
+    try:
+        lu = splu(
+            sp.csc_matrix(matrix),
+            permc_spec="MMD_AT_PLUS_A",
+            diag_pivot_thresh=0.0,
+            options={"SymmetricMode": True},
+        )
+    except RuntimeError as error:
+        raise SolverError(
+            f"the stiffness matrix cannot be factorized ({error}); check the materials"
+        ) from None
+    return lu.solve
+
+
+def modes_below(
+    K: sp.csr_array, M: sp.csr_array, highest_hz: float, expected: int = 8, most: int | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """All eigenpairs of K x = λ M x up to a frequency, rigid-body modes included.
+
+    Parameters
+    ----------
+    K, M : symmetric (n, n); K semidefinite, M definite.
+    highest_hz : upper end of the band.
+    expected : how many modes to ask for first; doubled until the band is covered.
+    most : stop at this many modes although the band may hold more; None for all.
+
+    Returns
+    -------
+    eigenvalues : (k,) λ in rad²/s², ascending.
+    vectors : (n, k), mass-normalised.
+
+    Raises
+    ------
+    SolverError
+        If the iteration does not converge.
+    """
+    top = (2 * np.pi * highest_hz) ** 2
+    sigma = -SHIFT * top
+    with threadpool_limits(limits=1, user_api="blas"):
+        solve = factorize(sp.csr_array(K - sigma * M))
+        count = expected if most is None else min(expected, most)
+        while True:
+            values, vectors = _lowest(K, M, sigma, solve, count)
+            if values[-1] > top or len(values) == K.shape[0] or count == most:
+                keep = values <= top
+                return values[keep], vectors[:, keep]
+            count = 2 * count if most is None else min(2 * count, most)
+
+
+def lowest_modes(
+    K: sp.csr_array, M: sp.csr_array, count: int, scale_hz: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """The `count` lowest eigenpairs; `scale_hz` is a typical frequency of theirs."""
+    sigma = -SHIFT * (2 * np.pi * scale_hz) ** 2
+    with threadpool_limits(limits=1, user_api="blas"):
+        return _lowest(K, M, sigma, factorize(sp.csr_array(K - sigma * M)), count)
+
+
+def _lowest(
+    K: sp.csr_array, M: sp.csr_array, sigma: float, solve: Solve, count: int
+) -> tuple[np.ndarray, np.ndarray]:
+    n = K.shape[0]
+    if count >= n - 1:
+        return _dense(K, M)
+    operator = LinearOperator((n, n), matvec=solve, dtype=float)
+    start = np.random.default_rng(0).standard_normal(n)  # a fixed start: the same study gives the same digits
+    try:
+        values, vectors = eigsh(
+            K, count, M, sigma=sigma, OPinv=operator, v0=start, ncv=min(n, 2 * count + 10)
+        )
+    except Exception as error:
+        raise SolverError(
+            f"the eigenvalue iteration failed ({error}); refine the mesh or check the materials"
+        ) from None
+    order = np.argsort(values)
+    return values[order], vectors[:, order]
+
+
+def _dense(K: sp.csr_array, M: sp.csr_array) -> tuple[np.ndarray, np.ndarray]:
+    values, vectors = eigh(K.toarray(), M.toarray())
+    return values, vectors
+
+
+def frequency_hz(eigenvalues: np.ndarray) -> np.ndarray:
+    """Natural frequencies of eigenvalues λ = ω²; rounding below zero counts as zero."""
+    return np.sqrt(np.maximum(eigenvalues, 0.0)) / (2 * np.pi)

@@ -1,0 +1,51 @@
+"""Shape functions of scikit-fem's 20-node hexahedron at Gauss points, in the mesh's local numbering."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from skfem import ElementHexS2
+from skfem.quadrature import get_quadrature
+
+# positions of the mesh's local nodes in the reference cube [0, 1]³ (see mesh/hex_mesh.py)
+_CORNERS = np.array(
+    [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], dtype=float
+)
+_EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 5), (2, 6), (3, 7), (4, 5), (5, 6), (6, 7), (7, 4)]
+REFERENCE_NODES = np.vstack([_CORNERS, [(_CORNERS[a] + _CORNERS[b]) / 2 for a, b in _EDGES]])
+
+
+@dataclass(frozen=True)
+class ShapeTable:
+    """Shape functions at points of the reference cube.
+
+    Parameters
+    ----------
+    values : (q, 20).
+    gradients : (q, 20, 3), with respect to the reference coordinates.
+    weights : (q,) quadrature weights.
+    """
+
+    values: np.ndarray
+    gradients: np.ndarray
+    weights: np.ndarray
+
+
+def shape_functions(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Values (q, 20) and reference gradients (q, 20, 3) at `points` (q, 3)."""
+    element = ElementHexS2()
+    order = [int(np.argmin(np.abs(element.doflocs - node).sum(axis=1))) for node in REFERENCE_NODES]
+    basis = [element.lbasis(points.T, i) for i in order]
+    return np.stack([b[0] for b in basis], axis=1), np.stack([b[1].T for b in basis], axis=1)
+
+
+@cache
+def gauss_table(order: int = 5) -> ShapeTable:
+    """Table on the Gauss points that integrate polynomials of `order` exactly (5: 3 × 3 × 3 points)."""
+    points, weights = get_quadrature(ElementHexS2, order)
+    values, gradients = shape_functions(points.T)
+    for array in (values, gradients, weights):
+        array.setflags(write=False)
+    return ShapeTable(values, gradients, weights)

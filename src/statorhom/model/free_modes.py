@@ -1,0 +1,212 @@
+"""All modes of the free stator in a band, harmonic by harmonic, on the full or on a reduced model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.eigen import modes_below
+from statorhom.model.harmonic import Harmonic, all_orders, harmonic_spaces
+from statorhom.model.radial_profile import RadialProfile, node_planes, radial_profile
+from statorhom.model.reduced import ReducedHarmonic, coefficients
+from statorhom.model.stator_mode import StatorMode, name_modes
+
+
+@dataclass(frozen=True)
+class FreeModes:
+    """Modes of the free stator, sorted by frequency.
+
+    Parameters
+    ----------
+    modes : the modes, rigid bodies left out.
+    harmonics : the problems that `StatorMode.problem` counts.
+    shapes : per problem (3 n, k) complex half-pitch displacements û of unit modal mass.
+    profiles : per problem (p, k) radial order amplitudes in the profile's planes.
+    """
+
+    modes: tuple[StatorMode, ...]
+    harmonics: tuple[Harmonic, ...]
+    shapes: tuple[np.ndarray, ...]
+    profiles: tuple[np.ndarray, ...]
+
+    def shape(self, mode: StatorMode) -> np.ndarray:
+        """Complex half-pitch displacement of a mode, (3 n,)."""
+        return np.asarray(self.shapes[mode.problem][:, mode.column])
+
+
+def solve_free(
+    model: AffineModel,
+    materials: Materials,
+    highest_hz: float,
+    orders: Iterable[int] | None = None,
+    most: int | None = None,
+) -> FreeModes:
+    """Solve the full model.
+
+    Parameters
+    ----------
+    model : of the half pitch.
+    materials : of every region of the model.
+    highest_hz : upper end of the band.
+    orders : harmonics to solve (default: all, 0 … N/2).
+    most : lowest modes of each harmonic problem that are enough; None for all of the band.
+    """
+    return problem_at(model, materials).solve(highest_hz, orders, most)
+
+
+@dataclass(frozen=True)
+class FreeProblem:
+    """The half pitch at given materials; a tenth of the affine model's size, for workers in other processes.
+
+    Parameters
+    ----------
+    mesh : of the half pitch.
+    K, M : of the half pitch.
+    mass : of the whole stator (kg).
+    """
+
+    mesh: HalfPitchMesh
+    K: sp.csr_array
+    M: sp.csr_array
+    mass: float
+
+    def solve(
+        self, highest_hz: float, orders: Iterable[int] | None = None, most: int | None = None
+    ) -> FreeModes:
+        """Modes of the band; see `solve_free`."""
+        profile = radial_profile(self.mesh)
+        harmonics: list[Harmonic] = []
+        modes: list[StatorMode] = []
+        shapes, profiles = [], []
+        for order in all_orders(self.mesh.slots) if orders is None else orders:
+            for harmonic in harmonic_spaces(self.mesh, order):
+                K, M = harmonic.project(self.K), harmonic.project(self.M)
+                values, vectors = modes_below(K, M, highest_hz, most=most)
+                shape = harmonic.expand(vectors) / np.sqrt(harmonic.copies)
+                amplitudes = profile.orders(harmonic, shape)
+                modes += name_modes(
+                    values,
+                    amplitudes,
+                    node_planes(amplitudes),
+                    order=order,
+                    multiplicity=harmonic.multiplicity,
+                    mass=self.mass,
+                    problem=len(harmonics),
+                )
+                harmonics.append(harmonic)
+                shapes.append(shape)
+                profiles.append(amplitudes)
+        modes.sort(key=lambda mode: mode.frequency_hz)
+        return FreeModes(tuple(modes), tuple(harmonics), tuple(shapes), tuple(profiles))
+
+
+def problem_at(model: AffineModel, materials: Materials) -> FreeProblem:
+    """The problem of a model at given materials."""
+    K, M = model.stiffness_matrix(materials), model.mass_matrix(materials)
+    return FreeProblem(model.mesh, K, M, total_mass(model, materials))
+
+
+def total_mass(model: AffineModel, materials: Materials) -> float:
+    """Mass of the whole stator's mesh (kg)."""
+    return sum(materials[region].density * volume for region, volume in model.volumes.items())
+
+
+def strain_energy_shares(model: AffineModel, materials: Materials, shape: np.ndarray) -> dict[str, float]:
+    """Share of each region in the strain energy of a half-pitch shape (3 n,) complex."""
+    energy = {}
+    for region in model.stiffness:
+        K = model.region_stiffness(region, materials[region])
+        energy[region] = float(np.real(np.vdot(shape, K @ shape)))
+    total = sum(energy.values())
+    return {region: value / total for region, value in energy.items()}
+
+
+@dataclass(frozen=True)
+class ReducedStator:
+    """Reduced harmonics with what names their modes: an evaluation of all modes in milliseconds.
+
+    Parameters
+    ----------
+    problems : reduced harmonics.
+    profiles : per problem (p, k) radial order amplitudes of the basis.
+    volumes : region → volume (m³).
+    highest_hz : upper end of the band.
+    """
+
+    problems: tuple[ReducedHarmonic, ...]
+    profiles: tuple[np.ndarray, ...]
+    volumes: dict[str, float]
+    highest_hz: float
+
+    @property
+    def error(self) -> float:
+        """Largest relative frequency error that the bases met at their last snapshots."""
+        return max((p.error for p in self.problems), default=0.0)
+
+    def solve(self, materials: Materials) -> ReducedModes:
+        """Named modes in the band, sorted by frequency."""
+        mass = sum(materials[region].density * volume for region, volume in self.volumes.items())
+        modes: list[StatorMode] = []
+        weights = coefficients(materials)
+        vectors, eigenvalues = [], []
+        for number, (problem, profile) in enumerate(zip(self.problems, self.profiles, strict=True)):
+            values, q = problem.modes(weights, self.highest_hz)
+            amplitudes = profile @ (q / np.sqrt(problem.harmonic.copies))
+            modes += name_modes(
+                values,
+                amplitudes,
+                node_planes(amplitudes),
+                order=problem.harmonic.order,
+                multiplicity=problem.harmonic.multiplicity,
+                mass=mass,
+                problem=number,
+            )
+            vectors.append(q)
+            eigenvalues.append(values)
+        modes.sort(key=lambda mode: mode.frequency_hz)
+        return ReducedModes(self, tuple(modes), tuple(eigenvalues), tuple(vectors))
+
+
+@dataclass(frozen=True)
+class ReducedModes:
+    """Modes of one evaluation of a reduced stator, with what their derivatives need.
+
+    Parameters
+    ----------
+    stator : the reduced stator.
+    modes : sorted by frequency.
+    eigenvalues, vectors : per problem (k,) and (size of the basis, k), mass-normalised.
+    """
+
+    stator: ReducedStator
+    modes: tuple[StatorMode, ...]
+    eigenvalues: tuple[np.ndarray, ...]
+    vectors: tuple[np.ndarray, ...]
+
+    def log_frequency_gradient(self, mode: StatorMode) -> dict[str, tuple[np.ndarray, float]]:
+        """Region → derivative of ln f with respect to its nine Hooke entries and its density.
+
+        ∂λ/∂p = qᵀ(∂K/∂p - λ ∂M/∂p)q. The two modes of a doublet share one eigenvalue and lie in one problem as
+        a single vector: nothing is ambiguous.
+        """
+        problem = self.stator.problems[mode.problem]
+        q = self.vectors[mode.problem][:, mode.column]
+        value = self.eigenvalues[mode.problem][mode.column]
+        return {
+            region: (0.5 / value * (terms @ q @ q), -0.5 * float(q @ problem.mass[region] @ q))
+            for region, terms in problem.stiffness.items()
+        }
+
+
+def reduced_stator(
+    model: AffineModel, problems: Sequence[ReducedHarmonic], highest_hz: float
+) -> ReducedStator:
+    """Attach the radial profiles to reduced harmonics."""
+    profile: RadialProfile = radial_profile(model.mesh)
+    profiles = tuple(profile.orders(p.harmonic, p.harmonic.expand(p.basis)) for p in problems)
+    return ReducedStator(tuple(problems), profiles, dict(model.volumes), highest_hz)

@@ -1,0 +1,60 @@
+"""What a ring of accelerometers sees of a harmonic's shape: its radial order over the core's height."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.model.harmonic import Harmonic
+from statorhom.model.surface import SurfacePoints, surface_points
+
+PLANES = 9  # enough for six node planes
+ANGLES_PER_PITCH = 6  # orders up to 2 N beside the harmonic's own are kept apart
+
+
+@dataclass(frozen=True)
+class RadialProfile:
+    """Radial order-h amplitude of shapes of harmonic h, in planes over the core.
+
+    Parameters
+    ----------
+    planes : (p,) axial positions (m).
+    points : interpolation to the planes times the angles of one pitch, planes slowest.
+    angles : (a,) angles (rad).
+    """
+
+    planes: np.ndarray
+    points: SurfacePoints
+    angles: np.ndarray
+
+    def orders(self, harmonic: Harmonic, shapes: np.ndarray) -> np.ndarray:
+        """Amplitude of order h of shapes (3 n, k) in every plane, (p, k), real."""
+        radial = self.points.evaluate(harmonic, shapes)[:, 0]
+        # the points of the neighbouring pitch carry its phase; the order's own phase takes care of both
+        turned = radial.reshape(len(self.planes), len(self.angles), -1)
+        wave = np.exp(-1j * harmonic.order * self.angles)
+        amplitude = np.einsum("pak,a->pk", turned, wave) / len(self.angles)
+        # the mirror symmetry makes it real for cosine shapes and imaginary for the odd singlets
+        return np.asarray(amplitude.imag if harmonic.parity == "odd" else amplitude.real)
+
+
+def radial_profile(mesh: HalfPitchMesh) -> RadialProfile:
+    """Planes over the core's height, the ends included, and angles within one slot pitch."""
+    planes = np.linspace(0.02, 0.98, PLANES) * mesh.length
+    pitch = 2 * np.pi / mesh.slots
+    angles = (np.arange(ANGLES_PER_PITCH) + 0.5) / ANGLES_PER_PITCH * pitch - pitch / 2
+    points = surface_points(mesh, np.tile(angles, PLANES), np.repeat(planes, ANGLES_PER_PITCH))
+    return RadialProfile(planes, points, angles)
+
+
+def node_planes(profile: np.ndarray) -> np.ndarray:
+    """Number of sign changes down each column of (p, k) amplitudes; planes near a node have no sign."""
+    signs = np.where(np.abs(profile) > 0.1 * np.abs(profile).max(axis=0), np.sign(profile), 0.0)
+    changes = np.zeros(profile.shape[1], dtype=int)
+    last = np.zeros(profile.shape[1])
+    for row in signs:
+        changes += (row * last) < 0
+        last = np.where(row != 0, row, last)
+    return changes

@@ -1,0 +1,79 @@
+"""A simulated mode of the stator, with its name."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from statorhom.model.eigen import frequency_hz
+
+RIGID_HZ = 1.0  # a free stator's rigid-body modes, which rounding moves off zero
+# Part of a uniform ring's radial motion below which an accelerometer on the back of the core sees no order.
+VISIBLE = 1e-3
+
+
+@dataclass(frozen=True)
+class StatorMode:
+    """One simulated mode; a doublet is one mode of multiplicity 2.
+
+    Parameters
+    ----------
+    frequency_hz : undamped natural frequency.
+    order, axial : the name (r, n); None where the surface has no significant radial motion.
+    kind : "radial" or "winding" (or "torsion", "axial": see `kind_of`).
+    visibility : mean square radial order-r motion of the surface times the stator's mass over the modal mass, cut at 1.
+    multiplicity : 2 for a doublet.
+    problem : number of the harmonic problem in its solver's list.
+    column : number of the mode in that problem.
+    """
+
+    frequency_hz: float
+    order: int | None
+    axial: int | None
+    kind: str
+    visibility: float
+    multiplicity: int
+    problem: int
+    column: int
+
+
+def name_modes(
+    eigenvalues: np.ndarray,
+    amplitudes: np.ndarray,
+    axial: np.ndarray,
+    *,
+    order: int,
+    multiplicity: int,
+    mass: float,
+    problem: int,
+) -> list[StatorMode]:
+    """Modes of one harmonic problem.
+
+    Parameters
+    ----------
+    eigenvalues : (k,) rad²/s².
+    amplitudes : (p, k) radial order amplitudes of shapes of unit modal mass, in planes over the core.
+    axial : (k,) node planes.
+    order, multiplicity, problem : of the harmonic problem.
+    mass : of the stator (kg).
+    """
+    visibility = np.minimum(1.0, mass * np.mean(amplitudes**2, axis=0))
+    modes = []
+    for column, f in enumerate(frequency_hz(eigenvalues)):
+        if f < RIGID_HZ:
+            continue
+        radial = visibility[column] > VISIBLE
+        modes.append(
+            StatorMode(
+                frequency_hz=float(f),
+                order=order if radial else None,
+                axial=int(axial[column]) if radial else None,
+                kind="radial" if radial else "winding",
+                visibility=float(visibility[column]),
+                multiplicity=multiplicity,
+                problem=problem,
+                column=column,
+            )
+        )
+    return modes

@@ -1,0 +1,124 @@
+"""Pairing of measured with simulated modes, leaving modes unpaired on both sides where need be."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import linear_sum_assignment
+
+from statorhom.modes.mode_protocols import LabelledMode, SimulatedMode
+from statorhom.modes.pairing_cost import UNPAIRED, FloatArray, PairingCost, pairing_cost
+
+
+class Pair(NamedTuple):
+    """A measured and a simulated mode by their positions, and the doubt (0 … 0.5) about it."""
+
+    measured: int
+    simulated: int
+    doubt: float
+
+
+@dataclass(frozen=True)
+class Pairing:
+    """Which measured mode is which simulated one.
+
+    Attributes
+    ----------
+    pairs : tuple of Pair
+        In the order of the measured modes; the two modes of a doublet name the same simulated one.
+    unpaired_measured, unpaired_simulated : tuple of int
+        Positions of the modes that belong to none.
+    """
+
+    pairs: tuple[Pair, ...]
+    unpaired_measured: tuple[int, ...]
+    unpaired_simulated: tuple[int, ...]
+
+
+def pair(
+    measured: Sequence[LabelledMode],
+    simulated: Sequence[SimulatedMode],
+    log_sd: float | npt.ArrayLike,
+    *,
+    gate: float = 4.0,
+    labelled_gate: float = 12.0,
+    doublet_split: float = 0.05,
+    with_doubt: bool = True,
+) -> Pairing:
+    """Pair modes so that the sum of the costs is the least (an optimal assignment).
+
+    A pair costs ((ln f_measured − ln f_simulated) / log_sd)² − 2 ln visibility, which is −2 ln of its
+    likelihood; a measured mode that stays unpaired costs its gate squared. A label (order, axial) that
+    the measured mode has must be the simulated one's. A doublet (multiplicity 2) can take two measured
+    modes that lie within `doublet_split` of each other. The doubt of a pair is 1 / (1 + exp(Δ/2)), Δ
+    what the best assignment without that pair costs more: 0.5 where another explanation is as good.
+
+    Parameters
+    ----------
+    measured : sequence of LabelledMode
+    simulated : sequence of SimulatedMode
+        Modes at zero frequency or of zero visibility pair with nothing.
+    log_sd : float or array_like, shape (measured,)
+        Standard deviation of ln f_measured − ln f_simulated that is expected (0.05: five percent).
+    gate, labelled_gate : float
+        Greatest distance in `log_sd` at which a mode without and with labels is paired.
+    doublet_split : float
+        Greatest difference of the logarithms of a doublet's two frequencies.
+    with_doubt : bool
+        False saves most of the time; the doubts are then NaN.
+
+    Raises
+    ------
+    ValueError
+        When a measured frequency, `log_sd` or a gate is not finite and positive.
+    """
+    cost = pairing_cost(
+        measured, simulated, log_sd, gate=gate, labelled_gate=labelled_gate, doublet_split=doublet_split
+    )
+    best, total = _assign(cost)
+    doubts = _doubts(cost, best, total) if with_doubt else np.full(len(best), np.nan)
+    paired = np.flatnonzero(best != UNPAIRED).tolist()
+    taken = set(best.tolist())
+    return Pairing(
+        tuple(Pair(i, int(best[i]), float(doubts[i])) for i in paired),
+        tuple(np.flatnonzero(best == UNPAIRED).tolist()),
+        tuple(j for j in range(len(simulated)) if j not in taken),
+    )
+
+
+def _assign(cost: PairingCost) -> tuple[npt.NDArray[np.int64], float]:
+    """Simulated mode of every measured one (−1: none) and the total cost."""
+    best, total = _assign_freely(cost)
+    for conflict in _conflicts(best, cost.close):
+        # the assignment cannot say "both or neither"; let the cheaper of the two modes keep the doublet
+        return min((_assign(cost.without(i, int(best[i]))) for i in conflict), key=lambda found: found[1])
+    return best, total
+
+
+def _assign_freely(cost: PairingCost) -> tuple[npt.NDArray[np.int64], float]:
+    rows, columns = linear_sum_assignment(cost.table)
+    return cost.owner[columns], float(cost.table[rows, columns].sum())
+
+
+def _conflicts(best: npt.NDArray[np.int64], close: npt.NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
+    """Measured modes that share a simulated one although they lie too far apart for a doublet."""
+    seen: dict[int, int] = {}
+    for i, j in enumerate(best.tolist()):
+        if j == UNPAIRED:
+            continue
+        if j in seen and not close[seen[j], i]:
+            yield seen[j], i
+        seen[j] = i
+
+
+def _doubts(cost: PairingCost, best: npt.NDArray[np.int64], total: float) -> FloatArray:
+    doubts = np.full(len(best), np.nan)
+    for i in np.flatnonzero(best != UNPAIRED).tolist():
+        _, alternative = _assign(cost.without(i, int(best[i])))
+        excess = max(alternative - total, 0.0)
+        doubts[i] = np.exp(-0.5 * excess) / (1.0 + np.exp(-0.5 * excess))
+    return doubts

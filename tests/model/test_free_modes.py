@@ -1,0 +1,129 @@
+"""All modes of a free stator, full and reduced."""
+
+import numpy as np
+import pytest
+from small_stators import MATERIALS, STACK, WINDING, stator_mesh
+
+from statorhom.model.affine import Material, assemble
+from statorhom.model.free_modes import reduced_stator, solve_free, strain_energy_shares, total_mass
+from statorhom.model.harmonic import harmonic_spaces
+from statorhom.model.reduced import coefficients, reduce_harmonic
+
+TOP_HZ = 6000.0
+
+
+@pytest.fixture(scope="module")
+def model():
+    return assemble(stator_mesh(6, ("stack", "wound")))
+
+
+@pytest.fixture(scope="module")
+def free(model):
+    return solve_free(model, MATERIALS, TOP_HZ)
+
+
+@pytest.fixture(scope="module")
+def reduced(model):
+    spaces = [space for order in (0, 2, 3) for space in harmonic_spaces(model.mesh, order)]
+    return reduced_stator(model, [reduce_harmonic(model, s, [MATERIALS], TOP_HZ) for s in spaces], TOP_HZ)
+
+
+def test_modes_are_sorted_and_rigid_bodies_left_out(free):
+    frequencies = [mode.frequency_hz for mode in free.modes]
+    assert frequencies == sorted(frequencies)
+    assert frequencies[0] > 100.0
+    assert frequencies[-1] <= TOP_HZ
+    orders = {free.harmonics[mode.problem].order for mode in free.modes}
+    assert orders == {0, 1, 2, 3}
+
+
+def test_the_first_visible_mode_is_the_ovalling_one(free):
+    first = next(mode for mode in free.modes if mode.visibility > 0.1)
+    assert first.order == 2
+    assert first.multiplicity == 2
+
+
+def test_some_orders_alone(model, free):
+    only = solve_free(model, MATERIALS, TOP_HZ, (2,))
+    expected = [m.frequency_hz for m in free.modes if free.harmonics[m.problem].order == 2]
+    np.testing.assert_allclose([m.frequency_hz for m in only.modes], expected, rtol=1e-10)
+
+
+def test_shapes_have_unit_modal_mass_in_the_whole_stator(model, free):
+    M = model.mass_matrix(MATERIALS)
+    for mode in free.modes:
+        shape = free.shape(mode)
+        # the half pitch repeats 2 N times; a doublet's two shapes share the complex one
+        copies = 2 * model.mesh.slots / mode.multiplicity
+        assert copies * np.real(np.vdot(shape, M @ shape)) == pytest.approx(1.0, rel=1e-9)
+
+
+def test_strain_energy_shares_are_parts_of_the_eigenvalue(model, free):
+    for mode in free.modes[:5]:
+        shares = strain_energy_shares(model, MATERIALS, free.shape(mode))
+        assert sum(shares.values()) == pytest.approx(1.0)
+        assert min(shares.values()) >= 0.0
+        # a share is twice the relative change of the frequency with that region's stiffness
+        stiffer = {
+            r: Material(type(m.hooke)(m.hooke.matrix * 1.001), m.density) for r, m in MATERIALS.items()
+        }
+        changed = {**MATERIALS, "lamination": stiffer["lamination"]}
+        order = free.harmonics[mode.problem].order
+        above = solve_free(model, changed, TOP_HZ * 1.01, (order,)).modes
+        near = min(
+            above, key=lambda m: abs(m.frequency_hz - mode.frequency_hz * (1 + 0.0005 * shares["lamination"]))
+        )
+        slope = np.log(near.frequency_hz / mode.frequency_hz) / np.log(1.001)
+        assert 2 * slope == pytest.approx(shares["lamination"], abs=2e-3)
+
+
+def test_mass_is_that_of_the_volumes(model):
+    assert total_mass(model, MATERIALS) == pytest.approx(
+        model.volumes["lamination"] * STACK.density
+        + (model.volumes["winding"] + model.volumes["overhang"]) * WINDING.density
+    )
+
+
+def test_at_its_only_material_the_reduced_stator_is_the_full_one(free, reduced):
+    expected = [m for m in free.modes if free.harmonics[m.problem].order in (0, 2, 3)]
+    found = reduced.solve(MATERIALS).modes
+    np.testing.assert_allclose([m.frequency_hz for m in found], [m.frequency_hz for m in expected], rtol=1e-8)
+    assert [(m.order, m.axial, m.kind) for m in found] == [(m.order, m.axial, m.kind) for m in expected]
+    np.testing.assert_allclose([m.visibility for m in found], [m.visibility for m in expected], atol=1e-6)
+    assert reduced.error == 0.0
+
+
+def test_gradients_are_those_of_the_reduced_frequencies(reduced):
+    solution = reduced.solve(MATERIALS)
+    for mode in [m for m in solution.modes if m.order is not None][:4]:
+        gradient = solution.log_frequency_gradient(mode)
+        for region in ("lamination", "winding"):
+            hooke, density = gradient[region]
+            # all Hooke entries together: the region's stiffness
+            scaled = hooke @ _entries(MATERIALS[region])
+            slope = _difference(reduced, mode, region, stiffness=True)
+            assert scaled == pytest.approx(slope, abs=1e-6 + 1e-4 * abs(slope))
+            slope = _difference(reduced, mode, region, stiffness=False)
+            assert density * MATERIALS[region].density == pytest.approx(slope, abs=1e-6 + 1e-4 * abs(slope))
+
+
+def _entries(material):
+    matrix = material.hooke.matrix
+    pairs = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2), (3, 3), (4, 4), (5, 5))
+    return np.array([matrix[i, j] for i, j in pairs])
+
+
+def _difference(reduced, mode, region, *, stiffness, step=1e-4):
+    """∂ ln f / ∂ ln p of a mode by central differences."""
+    found = []
+    for factor in (1 - step, 1 + step):
+        m = MATERIALS[region]
+        scaled = (
+            Material(type(m.hooke)(m.hooke.matrix * factor), m.density)
+            if stiffness
+            else Material(m.hooke, m.density * factor)
+        )
+        problem = reduced.problems[mode.problem]
+        values, _ = problem.modes(coefficients({**MATERIALS, region: scaled}), TOP_HZ * 1.01)
+        found.append(0.5 * np.log(values[mode.column]))
+    return (found[1] - found[0]) / (np.log(1 + step) - np.log(1 - step))
