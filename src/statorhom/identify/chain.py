@@ -1,0 +1,205 @@
+"""All steps of a study, one after the other; what is done already and still holds is not done again."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from threadpoolctl import threadpool_limits
+
+from statorhom.geometry.stator import StatorGeometry, stator_geometry
+from statorhom.identify.optimizers.workers import Progress, Workers
+from statorhom.identify.priors import Carried
+from statorhom.identify.settings import Settings
+from statorhom.identify.stage_result import mass_only, stage_result
+from statorhom.identify.stage_run import Announce, run_stage
+from statorhom.identify.stage_setup import StageSetup, analytic_values, check_fit, stage_setup
+from statorhom.identify.stage_shapes import free_shapes
+from statorhom.identify.supported_results import supported_results
+from statorhom.materials.density import RegionDensity
+from statorhom.results.files import check_folder, earlier_stages, write_results
+from statorhom.results.schema import RegionResult, Results, StageResult
+from statorhom.results.shape_file import write_shape_file
+from statorhom.study.digest import stage_digest
+from statorhom.study.study import StudyFiles
+from statorhom.study.supports import SupportKeys
+
+FORMAT = 1  # of the program's results: a change of method makes earlier ones stale
+
+
+def silent(_what: str, _count: int) -> Progress:
+    """Announce nothing."""
+    return lambda _done: None
+
+
+@dataclass(frozen=True)
+class ChainState:
+    """What the steps so far hand on."""
+
+    carried: Carried = field(default_factory=Carried)
+    regions: Mapping[str, RegionResult] = field(default_factory=dict)
+    mass_kg: float = 0.0
+    stages: tuple[StageResult, ...] = ()
+
+    def after(self, result: StageResult) -> ChainState:
+        """State after one more step."""
+        known = self.carried if result.carried is None else Carried.from_state(result.carried)
+        return ChainState(known, result.regions, result.mass_kg, (*self.stages, result))
+
+
+@dataclass(frozen=True)
+class Chain:
+    """A study with its geometry, ready to be identified into a folder.
+
+    Parameters
+    ----------
+    files : the study.
+    geometry : of its machine.
+    folder : where results go.
+    settings : of the run.
+    """
+
+    files: StudyFiles
+    geometry: StatorGeometry
+    folder: Path
+    settings: Settings
+
+    def run(self, last: int | None = None, announce: Announce = silent) -> Results:
+        """Identify all steps up to one (default: all) and write results.json after each.
+
+        Raises
+        ------
+        StatorhomError
+            If a file, a mass or a test does not allow it; steps that are done stay written.
+        """
+        stages = self.files.study.stages
+        last = len(stages) - 1 if last is None else last
+        setups = self._setups(last)
+        check_folder(self.folder)
+        earlier = self._earlier()
+        state = ChainState()
+        with threadpool_limits(limits=1, user_api="blas"), Workers(self.settings.jobs) as workers:
+            for setup in setups:
+                digest = self._digest(setup.index)
+                done = earlier.get(digest)
+                result = done if done is not None else self._step(setup, state, digest, workers, announce)
+                state = state.after(result)
+                kept = () if done is None else self._kept(earlier, setup.index)
+                write_results(self._results((*state.stages, *kept)), self.folder)
+        return self._results(state.stages)
+
+    def _setups(self, last: int) -> list[StageSetup]:
+        """All steps up to one; every fault of the input shows before the first is identified."""
+        setups = [stage_setup(self.files, self.geometry, i) for i in range(last + 1)]
+        for setup in setups:
+            check_fit(self.files, setup)
+        return setups
+
+    def _step(
+        self, setup: StageSetup, state: ChainState, digest: str, workers: Workers, announce: Announce
+    ) -> StageResult:
+        began = time.perf_counter()
+        if not setup.tests:
+            result = mass_only(setup, state.mass_kg, state.regions)
+        else:
+            result = self._fitted(setup, state, workers, announce)
+        return result.model_copy(update={"digest": digest, "seconds": round(time.perf_counter() - began, 1)})
+
+    def _fitted(
+        self, setup: StageSetup, state: ChainState, workers: Workers, announce: Announce
+    ) -> StageResult:
+        carried = state.carried
+        for region in setup.new:
+            carried = carried.without(region)
+        analytic = analytic_values(
+            self.files, setup, _earlier_densities(self.files, self.geometry, setup.index)
+        )
+        run = run_stage(setup, carried, analytic, self.settings, workers, announce)
+        shapes, rows = free_shapes(run)
+        result = stage_result(run, state.mass_kg, state.regions, rows)
+        progress = announce("supported tests", 1)
+        predicted, more = supported_results(run, self._supports(setup), len(shapes.modes), workers)
+        progress(1)
+        name = f"shapes/{setup.index + 1}-{setup.keys.name}.npz"
+        write_shape_file(self.folder / name, replace(shapes, modes=(*shapes.modes, *more)))
+        return result.model_copy(update={"shapes": name, "modes": (*result.modes, *predicted)})
+
+    def _supports(self, setup: StageSetup) -> dict[str, SupportKeys]:
+        """Support of every supported test of a stage."""
+        found = {test.name: self.files.study.support(test.support) for test in setup.tests}
+        return {name: support for name, support in found.items() if support is not None}
+
+    def _digest(self, index: int) -> str:
+        extra = {**self.settings.digest_parts(), "format": FORMAT, "program": program_version()}
+        return stage_digest(self.files, index, extra)
+
+    def _earlier(self) -> dict[str, StageResult]:
+        """Results of a run that was interrupted or of an earlier step, by digest.
+
+        Raises
+        ------
+        ResultsError
+            If they are damaged or of another study: they are the user's to delete.
+        """
+        stages = earlier_stages(self.folder, self.files.study.name)
+        return {stage.digest: stage for stage in stages if stage.digest and self._has_shapes(stage)}
+
+    def _has_shapes(self, stage: StageResult) -> bool:
+        return stage.shapes is None or (self.folder / stage.shapes).exists()
+
+    def _kept(self, earlier: Mapping[str, StageResult], index: int) -> tuple[StageResult, ...]:
+        """Later steps that still hold stay in the file while an earlier one is only looked up."""
+        kept: list[StageResult] = []
+        for later in range(index + 1, len(self.files.study.stages)):
+            stage = earlier.get(self._digest(later))
+            if stage is None:
+                break
+            kept.append(stage)
+        return tuple(kept)
+
+    def _results(self, stages: tuple[StageResult, ...]) -> Results:
+        d = self.geometry.dimensions
+        return Results(
+            schema=1,
+            study=self.files.study.name,
+            seed=self.settings.seed,
+            program=program_version(),
+            geometry={
+                "name": self.files.geometry.name,
+                "slots": d.slots,
+                "shape": self.files.geometry.slots.shape,
+                "outer_diameter_mm": 2e3 * d.outer_radius,
+                "bore_diameter_mm": 2e3 * d.bore_radius,
+                "length_mm": 1e3 * d.length,
+            },
+            stages=stages,
+        )
+
+
+def chain(files: StudyFiles, folder: Path, settings: Settings) -> Chain:
+    """A chain of a study's steps.
+
+    Raises
+    ------
+    GeometryError
+        If the machine is impossible.
+    """
+    return Chain(files, stator_geometry(files.geometry, files.geometry_path), folder, settings)
+
+
+def program_version() -> str:
+    """Name and version of the program."""
+    try:
+        return f"statorhom {version('statorhom')}"
+    except PackageNotFoundError:
+        return "statorhom"
+
+
+def _earlier_densities(files: StudyFiles, geometry: StatorGeometry, index: int) -> dict[str, RegionDensity]:
+    found: dict[str, RegionDensity] = {}
+    for earlier in range(index):
+        found |= stage_setup(files, geometry, earlier).densities
+    return found

@@ -1,0 +1,1 @@
+"""Global optimizers behind one interface, and ensembles of them."""

@@ -1,0 +1,125 @@
+"""Meshes of a stage: the one to fit with and the finer ones that tell its error."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from statorhom.geometry.stator import StepGeometry
+from statorhom.identify.optimizers.workers import Tick, Workers
+from statorhom.mesh.density import MeshDensity
+from statorhom.mesh.extrude import mesh_step
+from statorhom.model.affine import AffineModel, Materials, assemble
+from statorhom.model.convergence import ModeConvergence, converge
+from statorhom.model.free_modes import FreeModes, FreeProblem, problem_at
+
+SolveTask = tuple[FreeProblem, float, tuple[int, ...], int | None]
+
+
+@dataclass(frozen=True)
+class Band:
+    """How a harmonic takes part in a convergence study.
+
+    Parameters
+    ----------
+    highest_hz : upper end of the band.
+    meshes : on the coarsest how many meshes.
+    most : lowest modes that are enough, None for all of the band.
+    """
+
+    highest_hz: float
+    meshes: int
+    most: int | None
+
+
+@dataclass(frozen=True)
+class MeshSeries:
+    """A stage's meshes, coarsest first.
+
+    Parameters
+    ----------
+    step : its geometry.
+    density : of the coarsest mesh.
+    refinements : factors of the number of cells, ascending from 1.
+    """
+
+    step: StepGeometry
+    density: MeshDensity
+    refinements: tuple[float, ...] = (1.0, 1.5, 2.0)
+
+    @cached_property
+    def models(self) -> tuple[AffineModel, ...]:
+        """Assembled models of all meshes."""
+        return tuple(assemble(mesh_step(self.step, self.density.refined(f))) for f in self.refinements)
+
+    @property
+    def coarsest(self) -> AffineModel:
+        """The model to fit with."""
+        return self.models[0]
+
+    def solution(
+        self, materials: Materials, highest_hz: float, orders: Sequence[int], workers: Workers
+    ) -> FreeModes:
+        """Modes of the coarsest mesh with their shapes."""
+        problem = problem_at(self.coarsest, materials)
+        tasks = [(problem, highest_hz, (order,), None) for order in orders]
+        return merged(workers.map(_solve_whole, tasks))
+
+    def study(
+        self, materials: Materials, bands: Mapping[int, Band], workers: Workers
+    ) -> tuple[ModeConvergence, ...]:
+        """Solve the meshes at the same materials and extrapolate every common mode.
+
+        Parameters
+        ----------
+        materials : of every region.
+        bands : harmonic → how far up and on how many meshes.
+        workers : processes; the largest problems begin first.
+        """
+        tasks = [
+            (level, order)
+            for level in reversed(range(len(self.models)))
+            for order, band in bands.items()
+            if level < band.meshes
+        ]
+        problems = [problem_at(model, materials) for model in self.models]
+        work = [
+            (problems[level], bands[order].highest_hz, (order,), bands[order].most) for level, order in tasks
+        ]
+        found = dict(zip(tasks, workers.map(_solve, work), strict=True))
+        converged: list[ModeConvergence] = []
+        for order, band in bands.items():
+            count = min(band.meshes, len(self.models))
+            sizes = [1 / f for f in self.refinements[:count]]
+            dofs = [model.mesh.full_dof for model in self.models[:count]]
+            converged += converge(sizes, dofs, [found[level, order] for level in range(count)])
+        return tuple(converged)
+
+
+def _solve_whole(task: SolveTask, tick: Tick) -> FreeModes:
+    problem, highest_hz, orders, most = task
+    solution = problem.solve(highest_hz, orders, most)
+    tick()
+    return solution
+
+
+def _solve(task: SolveTask, tick: Tick) -> FreeModes:
+    solution = _solve_whole(task, tick)
+    # shapes stay in the process: frequencies and names are all that extrapolation needs
+    return FreeModes(solution.modes, (), (), ())
+
+
+def merged(parts: Sequence[FreeModes]) -> FreeModes:
+    """Modes of several solutions in one list; their problems are counted through."""
+    modes, first = [], 0
+    for part in parts:
+        modes += [replace(mode, problem=mode.problem + first) for mode in part.modes]
+        first += len(part.harmonics)
+    modes.sort(key=lambda mode: mode.frequency_hz)
+    return FreeModes(
+        tuple(modes),
+        tuple(harmonic for part in parts for harmonic in part.harmonics),
+        tuple(shape for part in parts for shape in part.shapes),
+        tuple(profile for part in parts for profile in part.profiles),
+    )

@@ -1,0 +1,210 @@
+"""Fit one fabrication step: reduced basis, global search, mesh correction, polish, intervals."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from statorhom.errors import IdentificationError
+from statorhom.identify.intervals import Posterior, posterior
+from statorhom.identify.model_error import model_error
+from statorhom.identify.optima import distinct_optima, find_optima
+from statorhom.identify.optimizers.annealing import SimulatedAnnealing
+from statorhom.identify.optimizers.threshold import ThresholdAccepting
+from statorhom.identify.optimizers.workers import Progress, Tick, Workers
+from statorhom.identify.parameters import Parameter, ParameterSpace
+from statorhom.identify.polish import Optimum, polish
+from statorhom.identify.stage_materials import DENSITY
+from statorhom.identify.stage_problem import MESH, StageProblem
+from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.convergence import ModeConvergence, ModeKey, mode_keys
+from statorhom.model.free_modes import ReducedStator, reduced_stator
+from statorhom.model.harmonic import Harmonic
+from statorhom.model.reduced import ReducedHarmonic, reduce_harmonic
+from statorhom.study.stages import IdentifyKeys
+
+# of the frequencies; the mesh factors compare the basis with the full model at the optimum: nothing remains there
+BASIS_TOLERANCE = 3e-4
+BAND = 1.1  # the basis is exact up to here, as a part of the highest measured frequency
+LOOK = 1.5  # modes are computed and paired up to here
+MOST_STARTS = 4  # optima of the coarse problem that are followed up
+HOPELESS = (
+    16.0  # squared distance of a coarse optimum to the best one, hundreds of times that in the fine one
+)
+ROUNDS = 4  # of mesh correction and discrepancy
+MOVED = 30.0  # posterior standard deviations after which the mesh factors are computed again
+NEGLIGIBLE = 50.0  # an optimum whose posterior density is e⁻²⁵ of the best one's plays no part
+SETTLED = 0.1  # the discrepancy is settled when it changes by less than this part
+TRAINING = 128  # materials among which the basis picks its snapshots, a power of two
+# convergence study of the modes at given materials
+Refine = Callable[[Materials], tuple[ModeConvergence, ...]]
+
+OPTIMIZERS = {"annealing": SimulatedAnnealing, "threshold": ThresholdAccepting}
+
+
+@dataclass(frozen=True)
+class StageFit:
+    """A fitted stage.
+
+    Parameters
+    ----------
+    problem : with the final mesh factors and discrepancy.
+    posterior : of all constants.
+    convergence : of the modes at the optimum.
+    evaluations : spent by the global search.
+    """
+
+    problem: StageProblem
+    posterior: Posterior
+    convergence: tuple[ModeConvergence, ...]
+    evaluations: int
+
+
+def reduce_stage(
+    model: AffineModel,
+    training: Sequence[Materials],
+    spaces: Sequence[Harmonic],
+    highest_hz: float,
+    workers: Workers,
+    progress: Progress | None = None,
+) -> ReducedStator:
+    """Reduced bases of the given harmonic problems, one task each."""
+    tasks = [(model, space, tuple(training), BAND * highest_hz) for space in spaces]
+    problems = workers.map(_reduce, tasks, progress=progress)
+    return reduced_stator(model, problems, LOOK * highest_hz)
+
+
+def _reduce(task: tuple[AffineModel, Harmonic, tuple[Materials, ...], float], tick: Tick) -> ReducedHarmonic:
+    reduced = reduce_harmonic(*task, tolerance=BASIS_TOLERANCE)
+    tick()
+    return reduced
+
+
+def search_space(space: ParameterSpace) -> ParameterSpace:
+    """The space in which the global search moves: what earlier steps and the scale know stays where it is."""
+    known = {name for block in space.blocks for name in block.names}
+    values = space.values(space.start)
+    led = {name for tie in space.ties if tie.names[0] in known for name in tie.names}
+
+    def settled(parameter: Parameter) -> bool:
+        return parameter.name in known | led or parameter.name.endswith(DENSITY) or parameter.name == MESH
+
+    parameters = tuple(
+        Parameter.constant(p.name, values[p.name]) if settled(p) or p.fixed else p for p in space.parameters
+    )
+    ties = tuple(tie for tie in space.ties if tie.names[0] not in known)
+    return ParameterSpace(parameters, ties)
+
+
+def fit_stage(
+    problem: StageProblem,
+    keys: IdentifyKeys,
+    refine: Refine,
+    *,
+    seed: int,
+    workers: Workers,
+    progress: Progress | None = None,
+) -> StageFit:
+    """Find the constants of a stage.
+
+    Parameters
+    ----------
+    problem : in the full space, without mesh factors.
+    keys : method, evaluations and chains.
+    refine : convergence study at given materials.
+    seed : of the search.
+    workers : processes.
+    progress : called with the evaluations spent.
+
+    Raises
+    ------
+    IdentificationError
+        If there is nothing to fit.
+    """
+    if not problem.measured:
+        raise IdentificationError(
+            "the stage has no mode to fit: give a free test modes that are not held out"
+        )
+    coarse = replace(problem, space=search_space(problem.space)).coarse()
+    found = find_optima(
+        coarse,
+        seed=seed,
+        optimizer=OPTIMIZERS[keys.method](),
+        chains=keys.chains,
+        evaluations=keys.evaluations,
+        workers=workers,
+        progress=progress,
+    )
+    hopeful = [o for o in found[:MOST_STARTS] if o.value < found[0].value + HOPELESS]
+    starts = [problem.space.internal(coarse.space.values(o.x)) for o in hopeful]
+    problem, convergence, optima = _sharpen(problem, starts, refine)
+    return StageFit(problem, posterior(optima, problem.space, seed=seed), convergence, keys.evaluations)
+
+
+def _sharpen(
+    problem: StageProblem, starts: Sequence[np.ndarray], refine: Refine
+) -> tuple[StageProblem, tuple[ModeConvergence, ...], tuple[Optimum, ...]]:
+    """Alternate polish, mesh correction and discrepancy until they agree."""
+    problem = problem.coarse()
+    optima = _polish_all(problem, starts)
+    convergence: tuple[ModeConvergence, ...] = ()
+    refined_at: np.ndarray | None = None
+    for round_ in range(ROUNDS):
+        x = optima[0].x
+        if refined_at is None or np.linalg.norm(optima[0].jacobian @ (x - refined_at)) > MOVED:
+            convergence, refined_at = refine(problem.stage_materials(x)), x
+            problem = replace(problem, error=model_error(convergence, reduced_frequencies(problem, x)))
+        before = problem.discrepancy
+        problem = replace(problem, discrepancy=unexplained(problem, x))
+        optima = _polish_all(problem, [o.x for o in optima])
+        if round_ > 0 and abs(problem.discrepancy - before) <= SETTLED * max(before, 1e-4):
+            break
+    return problem, convergence, optima
+
+
+def _polish_all(problem: StageProblem, starts: Sequence[np.ndarray]) -> tuple[Optimum, ...]:
+    optima = distinct_optima([polish(problem, start) for start in starts])
+    return tuple(o for o in optima if o.value < optima[0].value + NEGLIGIBLE)
+
+
+def unexplained(problem: StageProblem, x: np.ndarray) -> float:
+    """Relative standard deviation that the model leaves unexplained beyond measurement and mesh.
+
+    The smallest common one for which the squared residuals do not exceed their expected number, the modes
+    less what was fitted to them.
+    """
+    sharp = replace(problem, discrepancy=0.0).smooth_at(x)
+    assert isinstance(sharp, StageProblem) and sharp.held is not None
+    paired = np.array([key is not None for key in sharp.held])
+    distance = sharp.data_residuals(x)[:-1][paired]  # the last one is no mode's
+    base = np.array([sharp.relative_sd(m, k) for m, k in zip(sharp.measured, sharp.held, strict=True)])[
+        paired
+    ]
+    residual = distance * base
+    expected = max(1.0, paired.sum() - effective_constants(problem, x))
+    if not paired.any() or float(np.sum((residual / base) ** 2)) <= expected:
+        return 0.0
+    low, high = 0.0, float(np.sqrt(np.sum(residual**2)))
+    for _ in range(50):
+        middle = (low + high) / 2
+        if float(np.sum(residual**2 / (base**2 + middle**2))) > expected:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+def reduced_frequencies(problem: StageProblem, x: np.ndarray) -> dict[ModeKey, float]:
+    """Frequencies of the reduced model by mode."""
+    return {key: mode.frequency_hz for key, mode in mode_keys(problem.solve(x).modes).items()}
+
+
+def effective_constants(problem: StageProblem, x: np.ndarray) -> float:
+    """Number of constants that the data determine: the trace of the resolution matrix JᵀJ (JᵀJ + Λ)⁻¹."""
+    smooth = problem.smooth_at(x)
+    J = smooth.data_jacobian(x)
+    prior = problem.space.prior_jacobian
+    data = J.T @ J
+    return float(np.trace(np.linalg.solve(data + prior.T @ prior, data)))

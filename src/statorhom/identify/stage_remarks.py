@@ -1,0 +1,83 @@
+"""What a stage's fit assumed, and what its reader must know first."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from statorhom.identify.mode_results import shared_shift, simulated_modes
+from statorhom.identify.model_error import DEFAULT_RELATIVE_SD
+from statorhom.identify.stage_materials import DENSITY
+from statorhom.identify.stage_run import StageRun
+from statorhom.results.schema import ModeResult
+
+LIKELY = 0.05  # an optimum of this probability is worth a warning
+UNEXPLAINED_PERCENT = 0.5  # of the frequencies: what manufacturing scatter alone does not leave
+
+
+def assumptions(run: StageRun) -> tuple[str, ...]:
+    """Assumptions of a stage, a sentence each."""
+    shift = shared_shift(run)
+    keys = [m.key for m in simulated_modes(run) if m.key is not None and m.visibility >= 1.0]
+    parts = [abs(shift) * run.error.shared(k) for k in keys]
+    lines = [
+        "Every region is homogeneous and perfectly bonded to its neighbours; its material's axes are r, θ and z.",
+        "Free tests: no suspension stiffness. Undamped natural frequencies are compared with the measured ones.",
+        f"Where a table gives no standard deviation, a frequency counts as known to {100 * DEFAULT_RELATIVE_SD:.1f} %.",
+        f"All simulated frequencies share a model error (tooth roots, slot corners) that grows with what the mesh "
+        f"refinement changes; the fit put it at {shift + 0.0:+.2f} of its standard deviations, "
+        f"at most {100 * max(parts, default=0.0):.2f} % of a frequency.",
+    ]
+    if any(m.order is None for m in run.setup.fitted):
+        lines.append(
+            "Modes without an order in the table were assigned by frequency; doubtful ones are marked."
+        )
+    if "overhang" in run.materials and "overhang" not in run.setup.materials.sources:
+        lines.append("The winding's overhangs have the material of the winding in the slots.")
+    return tuple(lines)
+
+
+def warnings(run: StageRun, modes: Sequence[ModeResult]) -> list[str]:
+    """Warnings of a stage, a line each."""
+    found = []
+    unexplained = 100 * run.fit.problem.discrepancy
+    if unexplained > UNEXPLAINED_PERCENT:
+        found.append(
+            f"stage {run.setup.keys.name!r}: the declared model leaves {unexplained:.1f} % of the fitted frequencies "
+            f"unexplained; the intervals were widened accordingly, but a physical effect may be missing"
+        )
+    found += _rivals(run)
+    for m in modes:
+        if m.role == "unmatched" and m.measured_hz is not None:
+            found.append(
+                f"test {m.test!r}: the measured mode at {m.measured_hz:.0f} Hz has no simulated partner"
+            )
+    if not run.fit.posterior.best.converged:
+        found.append(
+            f"stage {run.setup.keys.name!r}: the last descent did not settle; raise identify.evaluations"
+        )
+    return found
+
+
+def _rivals(run: StageRun) -> list[str]:
+    """Other constants that explain the modes about as well."""
+    posterior, space = run.fit.posterior, run.fit.problem.space
+    best = space.values(posterior.best.x)
+    found = []
+    for component, weight in list(zip(posterior.components, posterior.weights, strict=True))[1:]:
+        if weight < LIKELY:
+            continue
+        values = space.values(component.optimum.x)
+        new = [n for n in values if n.split(".")[0] in run.setup.new and not n.endswith(DENSITY)]
+        name = max(new, key=lambda n: abs(math.log(abs(values[n] / best[n]))))
+        here, there = _figure(name, best[name]), _figure(name, values[name])
+        found.append(
+            f"stage {run.setup.keys.name!r}: the modes are met by more than one material: {name} = {there} "
+            f"(probability {100 * weight:.0f} %) instead of {here}; label more modes or measure their shapes"
+        )
+    return found
+
+
+def _figure(name: str, value: float) -> str:
+    """A constant as people write it."""
+    return f"{value / 1e9:.3g} GPa" if name.endswith("_pa") else f"{value:.3g}"

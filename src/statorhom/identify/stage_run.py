@@ -1,0 +1,136 @@
+"""Fit one step from its setup: meshes, basis, search, polish and the full solution at the result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from statorhom.errors import IdentificationError
+from statorhom.identify.bands import highest_hz, mode_names
+from statorhom.identify.model_error import ModelError, model_error
+from statorhom.identify.optimizers.workers import Progress, Workers
+from statorhom.identify.polish import Optimum, polish
+from statorhom.identify.priors import Carried, stage_space
+from statorhom.identify.refinement import Band, MeshSeries
+from statorhom.identify.settings import Settings
+from statorhom.identify.stage_fit import TRAINING, StageFit, fit_stage, reduce_stage, search_space
+from statorhom.identify.stage_problem import StageProblem
+from statorhom.identify.stage_setup import StageSetup
+from statorhom.identify.training import training_materials
+from statorhom.materials.transversely_isotropic import TransverselyIsotropic
+from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.free_modes import FreeModes
+from statorhom.model.harmonic import problems_of
+
+Announce = Callable[[str, int], Progress]
+"""Called with what begins and how many units of work it has; returns what counts them."""
+
+BAND_MARGIN = 1.15
+# of the convergence study, for orders that no fitted mode has: meshes, and modes of each harmonic problem
+PREDICTED_MESHES, PREDICTED_MODES = 2, 12
+
+
+@dataclass(frozen=True)
+class StageRun:
+    """A fitted stage with the full model at its optimum.
+
+    Parameters
+    ----------
+    setup : what it started from.
+    fit : the fit.
+    model : the fitting mesh.
+    materials : of the optimum.
+    solution : free modes of the fitting mesh at the optimum.
+    error : mesh factors of the full model's modes.
+    plain : the optimum that the fitting mesh alone would give, without mesh factors.
+    basis_error : estimated relative frequency error of the reduced basis.
+    """
+
+    setup: StageSetup
+    fit: StageFit
+    model: AffineModel
+    materials: Materials
+    solution: FreeModes
+    error: ModelError
+    plain: Optimum
+    basis_error: float
+
+
+def run_stage(
+    setup: StageSetup,
+    carried: Carried,
+    analytic: dict[str, TransverselyIsotropic | None],
+    settings: Settings,
+    workers: Workers,
+    announce: Announce,
+) -> StageRun:
+    """Identify the constants of a step.
+
+    Parameters
+    ----------
+    setup : the stage; it has fitted modes.
+    carried : constants of earlier steps, those that this step identifies anew left out.
+    analytic : homogenized start values.
+    settings, workers : of the run.
+    announce : told what begins.
+
+    Raises
+    ------
+    IdentificationError
+        If no mode of a free test is left to fit.
+    """
+    if not setup.fitted or setup.step is None:
+        raise IdentificationError(
+            f"stage {setup.keys.name!r}: no mode is left to fit; give it a free test with modes that are not held out"
+        )
+    series = MeshSeries(setup.step, settings.density, settings.refinements)
+    model = series.coarsest
+    space = stage_space(setup.keys, setup.materials, setup.new, setup.densities, carried, analytic)
+    searched = search_space(space)
+    typical = setup.materials.of(searched.values(searched.start))
+    top = highest_hz(setup.fitted)
+    names = mode_names(model, typical, setup.fitted)
+    problems = problems_of(model.mesh, names)
+    training = training_materials(searched, setup.materials, TRAINING)
+    reduced = reduce_stage(model, training, problems, top, workers, announce("reduced bases", len(problems)))
+    problem = StageProblem(space, setup.materials, reduced, setup.fitted, ModelError())
+    fitted_orders = {r for r, _ in names}
+    orders = sorted(fitted_orders | {r for r, _ in mode_names(model, typical, setup.free_modes, BAND_MARGIN)})
+    band = BAND_MARGIN * highest_hz(setup.free_modes)
+    bands = {order: Band(band, PREDICTED_MESHES, PREDICTED_MODES) for order in orders}
+    bands |= {order: Band(BAND_MARGIN * top, len(series.models), None) for order in fitted_orders}
+    fit = fit_stage(
+        problem,
+        setup.keys.identify,
+        lambda materials: series.study(materials, bands, workers),
+        seed=settings.seed,
+        workers=workers,
+        progress=announce("search", setup.keys.identify.evaluations),
+    )
+    return _finished(setup, fit, series, band, orders, reduced.error, workers)
+
+
+def _finished(
+    setup: StageSetup,
+    fit: StageFit,
+    series: MeshSeries,
+    band: float,
+    orders: list[int],
+    basis_error: float,
+    workers: Workers,
+) -> StageRun:
+    best = fit.posterior.best.x
+    materials = fit.problem.stage_materials(best)
+    solution = series.solution(materials, band, orders, workers)
+    same = {c.key: c.frequency_hz[0] for c in fit.convergence}
+    plain = polish(replace(fit.problem, error=ModelError()), best)
+    return StageRun(
+        setup=setup,
+        fit=fit,
+        model=series.coarsest,
+        materials=materials,
+        solution=solution,
+        error=model_error(fit.convergence, same),
+        plain=plain,
+        basis_error=basis_error,
+    )

@@ -1,0 +1,51 @@
+"""Materials that a reduced basis is trained on."""
+
+import numpy as np
+import synthetic_stage as stage
+
+from statorhom.errors import MaterialError
+from statorhom.identify.parameters import Parameter, ParameterSpace
+from statorhom.identify.training import training_materials
+
+
+def moduli(materials):
+    return np.array([1 / m["lamination"].hooke.compliance[0, 0] for m in materials])
+
+
+def test_the_prior_mean_comes_first_and_the_rest_spreads_like_the_prior():
+    space = stage.space()
+    found = training_materials(space, stage.LAMINATION, 128)
+    centre = stage.LAMINATION.of(space.values(space.start))
+    np.testing.assert_allclose(found[0]["lamination"].hooke.matrix, centre["lamination"].hooke.matrix)
+    e = moduli(found)
+    prior = next(p for p in space.parameters if p.name == "lamination.E_p_pa")
+    inside = np.mean((e > prior.low90) & (e < prior.high90))
+    assert 0.85 < inside < 0.97
+    assert e.min() < prior.low90
+    assert e.max() > prior.high90
+
+
+def test_the_same_materials_every_time():
+    one, two = (moduli(training_materials(stage.space(), stage.LAMINATION, 16)) for _ in range(2))
+    np.testing.assert_array_equal(one, two)
+
+
+def test_a_space_without_freedom_has_one_material():
+    fixed = ParameterSpace(tuple(Parameter.constant(n, v) for n, v in stage.TRUTH.items()))
+    assert len(training_materials(fixed, stage.LAMINATION, 64)) == 1
+
+
+def test_impossible_materials_are_left_out():
+    class Picky:
+        calls = 0
+
+        def of(self, values):
+            self.calls += 1
+            if self.calls % 2 == 0:
+                raise MaterialError("no material has these constants")
+            return stage.LAMINATION.of(values)
+
+    picky = Picky()
+    found = training_materials(stage.space(), picky, 16)
+    assert picky.calls == 17
+    assert len(found) == 9
