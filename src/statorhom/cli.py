@@ -1,0 +1,124 @@
+"""The command line: init, simulate, fit, run and report."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from statorhom.command_line.exit_codes import guarded
+from statorhom.command_line.progress import progress_bars
+from statorhom.command_line.tables import print_materials, print_modes
+
+app = typer.Typer(
+    name="statorhom",
+    help="Homogenized materials of electrical-machine stators, found step by step from weights and measured modes.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+StudyPath = Annotated[Path, typer.Argument(metavar="STUDY", help="The study file (study.toml).")]
+Out = Annotated[
+    Path | None, typer.Option("--out", metavar="DIR", help="Folder for results [default: beside the study].")
+]
+Seed = Annotated[int, typer.Option("--seed", min=0, help="Equal seeds give equal results.")]
+Jobs = Annotated[
+    int,
+    typer.Option(
+        "--jobs",
+        min=1,
+        show_default=False,
+        help="Number of processes [default: the processors]; results do not depend on it.",
+    ),
+]
+PROCESSORS = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else (os.cpu_count() or 1)
+Stage = Annotated[str | None, typer.Option("--stage", metavar="NAME", help="Only up to this step.")]
+Json = Annotated[bool, typer.Option("--json", help="Print the main result as JSON on standard output.")]
+
+
+@app.command()
+def init(
+    folder: Annotated[
+        Path, typer.Argument(metavar="DIR", help="Folder to make; it must not hold a study yet.")
+    ],
+) -> None:
+    """Make a study to start from: a geometry, a study file and a modal table with explanations."""
+    from statorhom.command_line.template import write_template
+
+    for path in write_template(folder):
+        typer.echo(f"wrote {path}")
+
+
+@app.command()
+def simulate(study: StudyPath, stage: Stage = None, out: Out = None, json: Json = False) -> None:
+    """Simulate the modes of each step with typical materials, or with identified ones where DIR has them."""
+    from statorhom.simulate import simulate_study
+
+    path, table = simulate_study(study, stage, out)
+    if json:
+        typer.echo(table.to_json(orient="records"))
+    else:
+        print_modes(table)
+        typer.echo(f"wrote {path}", err=True)
+
+
+@app.command()
+def fit(
+    study: StudyPath,
+    stage: Stage = None,
+    out: Out = None,
+    seed: Seed = 1,
+    jobs: Jobs = PROCESSORS,
+    json: Json = False,
+) -> None:
+    """Identify the materials of a step; earlier steps are taken from DIR or fitted first."""
+    from statorhom.api import Study
+
+    with progress_bars(quiet=json) as announce:
+        results = Study.load(study).fit(out, stage=stage, seed=seed, jobs=jobs, announce=announce)
+    _show(results.model_dump_json(by_alias=True) if json else None, results)
+
+
+@app.command()
+def run(
+    study: StudyPath, out: Out = None, seed: Seed = 1, jobs: Jobs = PROCESSORS, json: Json = False
+) -> None:
+    """Identify all steps and write results.json, report.html and report.pdf."""
+    from statorhom.api import Study
+
+    loaded = Study.load(study)
+    with progress_bars(quiet=json) as announce:
+        results = loaded.run(out, seed=seed, jobs=jobs, announce=announce)
+    _show(results.model_dump_json(by_alias=True) if json else None, results)
+    if not json:
+        typer.echo(f"report: {(out or loaded.default_folder) / 'report.html'}", err=True)
+
+
+@app.command()
+def report(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="A folder with results.json.")],
+) -> None:
+    """Write report.html and report.pdf again from what is in a results folder."""
+    from statorhom.report import write_report
+
+    for path in write_report(folder):
+        typer.echo(f"wrote {path}")
+
+
+def _show(text: str | None, results: object) -> None:
+    if text is not None:
+        typer.echo(text)
+    else:
+        print_materials(results)  # type: ignore[arg-type]
+
+
+def main() -> None:
+    """Entry point: our own errors are one line and exit code 2, an interruption is 130."""
+    sys.exit(guarded(app))
+
+
+__all__ = ["app", "main"]

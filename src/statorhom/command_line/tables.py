@@ -1,0 +1,48 @@
+"""Results as tables in the terminal."""
+
+from __future__ import annotations
+
+import pandas as pd
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from statorhom.results.schema import Results, StageResult
+
+
+def print_materials(results: Results) -> None:
+    """Materials with 90 % intervals, fits and warnings of all steps."""
+    console = Console()
+    for stage in results.stages:
+        console.print(_stage_line(stage))
+        table = Table("region", "constant", "value", "90 % interval", "status", box=None, pad_edge=False)
+        for region, material in stage.regions.items():
+            for name, constant in material.engineering.items():
+                low, high = constant.ci90
+                interval = f"{_figure(name, low)} … {_figure(name, high)}"
+                table.add_row(region, name, _figure(name, constant.value), interval, constant.status)
+        if table.row_count:
+            console.print(table)
+        for warning in stage.warnings:
+            console.print(f"[bold yellow]warning[/]: {escape(warning)}")
+
+
+def print_modes(table: pd.DataFrame) -> None:
+    """Simulated modes."""
+    shown = Table(*(str(c) for c in table.columns), box=None, pad_edge=False)
+    for row in table.itertuples(index=False):
+        shown.add_row(
+            *("" if pd.isna(v) else f"{v:.2f}" if isinstance(v, float) else escape(str(v)) for v in row)
+        )
+    Console().print(shown)
+
+
+def _stage_line(stage: StageResult) -> str:
+    line = f"[bold]{escape(stage.name)}[/] ({stage.kind}): {stage.mass_kg:g} kg"
+    if stage.fit is not None:
+        line += f", fitted modes within {stage.fit.rms_percent:.2f} % (rms), {stage.fit.max_percent:.2f} % at most"
+    return line
+
+
+def _figure(name: str, value: float) -> str:
+    return f"{value / 1e9:.4g} GPa" if name.endswith("_pa") else f"{value:.3f}"

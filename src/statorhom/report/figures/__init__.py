@@ -1,0 +1,1 @@
+"""Pictures of the report, each made from results and shape files alone."""

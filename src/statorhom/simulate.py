@@ -1,0 +1,185 @@
+"""Simulated modes of every step, as modes.csv and shape files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from threadpoolctl import threadpool_limits
+
+from statorhom.errors import InputFileError
+from statorhom.geometry.stator import stator_geometry
+from statorhom.identify.bands import LEAST_VISIBLE, highest_hz
+from statorhom.identify.model_error import ModelError, model_error
+from statorhom.identify.optimizers.workers import Workers
+from statorhom.identify.priors import Carried, stage_space
+from statorhom.identify.refinement import Band, MeshSeries
+from statorhom.identify.settings import Settings
+from statorhom.identify.simulated_shapes import mode_shape, shape_grid
+from statorhom.identify.stage_materials import StageMaterials
+from statorhom.identify.stage_problem import corrected
+from statorhom.identify.stage_run import PREDICTED_MESHES, PREDICTED_MODES
+from statorhom.identify.stage_setup import StageSetup, TestModes, stage_setup
+from statorhom.materials.hooke import Hooke
+from statorhom.model.affine import AffineModel, Material, Materials
+from statorhom.model.free_modes import FreeModes, solve_free
+from statorhom.model.supported_modes import solve_supported
+from statorhom.model.supports import support_on
+from statorhom.modes.mode_protocols import LabelledMode
+from statorhom.modes.supported_names import SupportedMode, name_supported
+from statorhom.results.files import check_folder, earlier_stages
+from statorhom.results.schema import RegionResult
+from statorhom.results.shape_file import ShapeFile, write_shape_file
+from statorhom.study.atomic import write_text
+from statorhom.study.study import StudyFiles, load_study
+from statorhom.study.supports import SupportKeys
+
+MARGIN = 1.15
+DEFAULT_BAND_HZ = 6000.0  # of a stage whose tests have no table to tell
+DEFAULT_SUPPORTED_HZ = 3000.0
+PICTURES = 24
+
+
+def simulate_study(path: Path, stage: str | None, out: Path | None) -> tuple[Path, pd.DataFrame]:
+    """Simulate the modes of the steps with tests and write modes.csv and shapes into a folder.
+
+    Parameters
+    ----------
+    path : the study file.
+    stage : only this step; None for all.
+    out : the folder; None for the default one. Materials identified there are used, else typical ones.
+
+    Returns
+    -------
+    file, table : modes.csv and its contents.
+
+    Raises
+    ------
+    StatorhomError
+        If the study's files or its geometry do not allow it.
+    """
+    files = load_study(path)
+    folder = files.path.parent / f"{files.study.name}-results" if out is None else out
+    geometry = stator_geometry(files.geometry, files.geometry_path)
+    identified = _identified(folder, files.study.name)
+    _check_stage(files, stage)
+    setups = [stage_setup(files, geometry, index) for index in range(len(files.study.stages))]
+    check_folder(folder)
+    rows: list[dict[str, object]] = []
+    known = Carried()
+    with threadpool_limits(limits=1, user_api="blas"):
+        for setup in setups:
+            if setup.step is None or not setup.tests:
+                continue
+            materials, known = _materials(setup, known, identified.get(setup.keys.name, {}))
+            if stage in (None, setup.keys.name):
+                rows += _simulate(files, setup, materials, folder)
+    table = pd.DataFrame(rows, columns=["mode", "frequency_hz", "order", "axial", "stage", "test"])
+    table = table.astype({"order": "Int64", "axial": "Int64"})
+    target = folder / "modes.csv"
+    write_text(target, table.to_csv(index=False))
+    return target, table
+
+
+def _check_stage(files: StudyFiles, name: str | None) -> None:
+    tests = {stage.name: stage.tests for stage in files.study.stages}
+    if name is not None and name not in tests:
+        raise InputFileError(f"{files.path}: there is no stage {name!r}; choose one of {', '.join(tests)}")
+    if not any(tests.values() if name is None else tests[name or ""]):
+        what = "no stage has" if name is None else f"the stage {name!r} has no"
+        raise InputFileError(f"{files.path}: {what} tests, so nothing says what to simulate; add a test")
+
+
+def _identified(folder: Path, study: str) -> dict[str, Mapping[str, RegionResult]]:
+    return {stage.name: stage.regions for stage in earlier_stages(folder, study)}
+
+
+def _materials(
+    setup: StageSetup, known: Carried, identified: Mapping[str, RegionResult]
+) -> tuple[Materials, Carried]:
+    """Identified materials where all are known, else the middle of the typical ranges."""
+    for region in setup.new:
+        known = known.without(region)
+    space = stage_space(setup.keys, setup.materials, setup.new, setup.densities, known, {})
+    typical = setup.materials.of(space.values(space.start))
+    found = _from_results(setup.materials, identified)
+    following = Carried(tuple(p for p in space.parameters if p.name != "mesh"), space.ties)
+    return (typical if found is None else found), following
+
+
+def _from_results(materials: StageMaterials, identified: Mapping[str, RegionResult]) -> Materials | None:
+    found: dict[str, Material] = {}
+    for region in materials.regions:
+        result = identified.get(region.source)
+        if result is None or result.hooke_pa is None or result.density_kg_m3 is None:
+            return None
+        found[region.region] = Material(Hooke(np.array(result.hooke_pa)), result.density_kg_m3)
+    return found
+
+
+def _simulate(
+    files: StudyFiles, setup: StageSetup, materials: Materials, folder: Path
+) -> list[dict[str, object]]:
+    """Rows of one stage: its free tests share one solution, every supported one has its own."""
+    assert setup.step is not None
+    series = MeshSeries(setup.step, Settings().density, Settings().refinements[:PREDICTED_MESHES])
+    top = MARGIN * highest_hz(setup.free_modes) if setup.free_modes else DEFAULT_BAND_HZ
+    solution = solve_free(series.coarsest, materials, top)
+    _write_shapes(setup, series.coarsest, solution, folder)
+    error = _mesh_error(series, materials, top, solution)
+    free = sorted(corrected(solution.modes, error), key=lambda mode: mode.frequency_hz)
+    rows = []
+    for test in setup.tests:
+        support = files.study.support(test.support)
+        modes: Sequence[LabelledMode] = free
+        if support is not None:
+            modes = _supported(series.coarsest, materials, support, test, error)
+        rows += [_row(setup, test.name, i, mode) for i, mode in enumerate(modes, start=1)]
+    return rows
+
+
+def _supported(
+    model: AffineModel, materials: Materials, keys: SupportKeys, test: TestModes, error: ModelError
+) -> list[SupportedMode]:
+    """Modes on a support, with the mesh factors of the free modes of the same names."""
+    top = MARGIN * highest_hz(test.modes) if test.modes else DEFAULT_SUPPORTED_HZ
+    modes = solve_supported(model, materials, support_on(model.mesh, keys), top)
+    return [
+        replace(mode, frequency_hz=mode.frequency_hz * error.factor((mode.order, mode.axial or 0, 0)))
+        if mode.order is not None
+        else mode
+        for mode in name_supported(modes, model, materials)
+    ]
+
+
+def _mesh_error(series: MeshSeries, materials: Materials, top_hz: float, solution: FreeModes) -> ModelError:
+    """Mesh factors as a fit would have them.
+
+    Modes that hardly move the surface are not worth the finer mesh and take the factor of the others.
+    """
+    harmonics = {solution.harmonics[m.problem].order for m in solution.modes if m.visibility > LEAST_VISIBLE}
+    band = Band(top_hz, PREDICTED_MESHES, PREDICTED_MODES)
+    study = series.study(materials, dict.fromkeys(sorted(harmonics), band), Workers())
+    return model_error(study, {c.key: c.frequency_hz[0] for c in study})
+
+
+def _row(setup: StageSetup, test: str, number: int, mode: LabelledMode) -> dict[str, object]:
+    return {
+        "mode": number,
+        "frequency_hz": round(mode.frequency_hz, 2),
+        "order": mode.order,
+        "axial": mode.axial,
+        "stage": setup.keys.name,
+        "test": test,
+    }
+
+
+def _write_shapes(setup: StageSetup, model: AffineModel, solution: FreeModes, folder: Path) -> None:
+    grid = shape_grid(model.mesh)
+    visible = [mode for mode in solution.modes if mode.order is not None][:PICTURES]
+    shapes = tuple(mode_shape(grid, solution, mode) for mode in visible)
+    name = f"simulated-{setup.index + 1}-{setup.keys.name}.npz"
+    write_shape_file(folder / "shapes" / name, ShapeFile(model.mesh, grid.planes, shapes))

@@ -1,0 +1,196 @@
+"""The commands: what they write, print and leave with."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from cheap_study import coarse, edit, write_study
+from command import statorhom
+from statorhom.identify.stage_run import Announce
+from statorhom.results.files import read_results
+
+PROGRAM = [sys.executable, "-c", "from statorhom.cli import main; main()"]
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Meshes whose accuracy does not matter here."""
+    monkeypatch.setattr("statorhom.api.Settings", coarse)
+    monkeypatch.setattr("statorhom.simulate.Settings", coarse)
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A study that has been run, in a folder with its results in `out`."""
+    root = tmp_path_factory.mktemp("done")
+    study = write_study(root)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("statorhom.api.Settings", coarse)
+        outcome = statorhom("run", study, "--out", root / "out")
+    assert outcome.code == 0
+    (root / "run.txt").write_text(outcome.stdout + outcome.stderr, encoding="utf-8")
+    return root
+
+
+def test_run_writes_results_and_report(done: Path) -> None:
+    out = done / "out"
+    assert {path.name for path in out.iterdir()} == {"results.json", "report.html", "report.pdf", "shapes"}
+    printed = (done / "run.txt").read_text(encoding="utf-8")
+    assert str(out / "report.html") in printed
+    # a table row of every constant, in engineers' units
+    for stage in read_results(out).stages:
+        for region, material in stage.regions.items():
+            for name, constant in material.engineering.items():
+                assert f"{region}" in printed and name in printed and constant.status in printed
+    assert "GPa" in printed
+
+
+def test_json_is_the_whole_of_standard_output(done: Path) -> None:
+    outcome = statorhom("run", done / "study.toml", "--out", done / "out", "--json")
+    assert outcome.code == 0
+    assert outcome.stderr == ""
+    printed = json.loads(outcome.stdout)
+    assert printed == json.loads((done / "out" / "results.json").read_text())
+    assert printed["schema"] == 1
+    assert printed["stages"][0]["regions"]["lamination"]["symmetry"] == "isotropic"
+
+
+def test_fit_of_one_stage_as_json(done: Path) -> None:
+    outcome = statorhom("fit", done / "study.toml", "--out", done / "out", "--stage", "stack", "--json")
+    assert outcome.code == 0
+    assert [stage["name"] for stage in json.loads(outcome.stdout)["stages"]] == ["stack"]
+    assert len(read_results(done / "out").stages) == 2
+
+
+def test_report_is_written_again_the_same(done: Path) -> None:
+    out = done / "out"
+    page = (out / "report.html").read_bytes()
+    (out / "report.html").unlink()
+    outcome = statorhom("report", out)
+    assert outcome.code == 0
+    assert outcome.stdout.split() == ["wrote", str(out / "report.html"), "wrote", str(out / "report.pdf")]
+    assert (out / "report.html").read_bytes() == page
+
+
+def test_results_go_beside_the_study_by_default(tmp_path: Path) -> None:
+    study = write_study(tmp_path)
+    assert statorhom("fit", study, "--stage", "stack").code == 0
+    assert [stage.name for stage in read_results(tmp_path / "ring-results").stages] == ["stack"]
+
+
+def test_seed_is_that_of_the_results(tmp_path: Path) -> None:
+    study = write_study(tmp_path)
+    assert statorhom("fit", study, "--stage", "stack", "--seed", 7).code == 0
+    assert read_results(tmp_path / "ring-results").seed == 7
+
+
+def test_interruption_keeps_what_is_done(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    study = write_study(tmp_path)
+    out = tmp_path / "out"
+
+    @contextmanager
+    def interrupted(quiet: bool = False) -> Iterator[Announce]:  # noqa: ARG001
+        def announce(_what: str, _count: int):  # type: ignore[no-untyped-def]
+            if (out / "results.json").exists():
+                raise KeyboardInterrupt
+            return lambda _done: None
+
+        yield announce
+
+    monkeypatch.setattr("statorhom.cli.progress_bars", interrupted)
+    outcome = statorhom("run", study, "--out", out)
+    assert outcome.code == 130
+    assert outcome.stdout == ""
+    assert outcome.stderr.splitlines() == [
+        "statorhom: interrupted; the steps that are done stay in the results folder"
+    ]
+    assert [stage.name for stage in read_results(out).stages] == ["stack"]
+    assert not (out / "report.html").exists()
+
+
+@pytest.mark.slow
+def test_ctrl_c_ends_processes_and_program(tmp_path: Path) -> None:
+    """The signal itself, at whatever the program is doing: annealing replaces the handler on its way."""
+    study = write_study(tmp_path)
+    edit(study, "evaluations = 60", "evaluations = 1000000", 1)
+    process = subprocess.Popen(
+        [*PROGRAM, "fit", study, "--out", tmp_path / "out", "--jobs", "2"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        # a shell lets what it runs in the background ignore the signal
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    try:
+        deadline = time.monotonic() + 120
+        while not (tmp_path / "out" / "results.json").exists() and time.monotonic() < deadline:
+            time.sleep(0.1)
+        time.sleep(1.0)
+        process.send_signal(signal.SIGINT)
+        out, error = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    assert process.returncode == 130
+    assert out == "" and len(error.splitlines()) == 1 and "interrupted" in error
+    assert [stage.name for stage in read_results(tmp_path / "out").stages] == ["stack"]
+
+
+def test_help_names_every_command() -> None:
+    outcome = statorhom("--help")
+    assert outcome.code == 0
+    for command in ("init", "simulate", "fit", "run", "report"):
+        assert command in outcome.stdout
+
+
+def test_no_command_is_a_usage_error_with_the_help() -> None:
+    outcome = statorhom()
+    assert outcome.code == 2
+    assert "Usage" in outcome.stdout
+    assert outcome.stderr == "statorhom: no command given; see statorhom --help\n"
+
+
+def test_an_own_fault_is_not_hidden(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """What is no fault of the user's must not look like one."""
+
+    def broken(_path: Path) -> None:
+        raise ZeroDivisionError
+
+    monkeypatch.setattr("statorhom.api.load_study", broken)
+    with pytest.raises(ZeroDivisionError):
+        statorhom("fit", tmp_path / "study.toml")
+
+
+def test_init_writes_a_study_that_can_be_fitted(tmp_path: Path) -> None:
+    folder = tmp_path / "new"
+    outcome = statorhom("init", folder)
+    assert outcome.code == 0
+    written = [folder / name for name in ("geometry.toml", "study.toml", "stack-free.csv")]
+    assert outcome.stdout.splitlines() == [f"wrote {path}" for path in written]
+    study = folder / "study.toml"
+    edit(study, "[[stages.tests]]", "[stages.identify]\nevaluations = 60\nchains = 1\n[[stages.tests]]")
+    assert statorhom("fit", study).code == 0
+    (stack,) = read_results(folder / "my-study-results").stages
+    assert stack.regions["lamination"].symmetry == "transversely_isotropic"
+    assert all(mode.role == "fitted" for mode in stage_modes(stack))
+
+
+def stage_modes(stage):  # type: ignore[no-untyped-def]
+    return [mode for mode in stage.modes if mode.measured_hz is not None]
+
+
+def test_init_overwrites_nothing(tmp_path: Path) -> None:
+    (tmp_path / "stack-free.csv").write_text("mine", encoding="utf-8")
+    outcome = statorhom("init", tmp_path)
+    assert outcome.code == 2
+    assert outcome.stderr.count("\n") == 1 and "stack-free.csv: exists already" in outcome.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["stack-free.csv"]
+    assert (tmp_path / "stack-free.csv").read_text(encoding="utf-8") == "mine"
