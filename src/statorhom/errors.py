@@ -35,6 +35,14 @@ class SolverError(StatorhomError):
     """A numerical method did not reach its accuracy."""
 
 
+class RecordingError(StatorhomError):
+    """A recording that cannot be read, or that does not hold what its use needs."""
+
+
+class ExtractionError(StatorhomError):
+    """Receptances from which modes cannot be extracted."""
+
+
 class IdentificationError(StatorhomError):
     """The measurements do not allow the fit that was asked for."""
 

@@ -1,0 +1,1 @@
+"""Modal extraction: poles, damping, modal constants and complex shapes from measured receptances."""
