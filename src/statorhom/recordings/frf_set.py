@@ -52,9 +52,10 @@ class FrfSet:
     @property
     def receptance(self) -> np.ndarray:
         """Displacement over force (m/N), shape (FRFs, lines); NaN at 0 Hz."""
-        omega = 2 * np.pi * np.asarray(self.frequency_hz)
-        squared = np.where(omega > 0, omega**2, np.nan)
-        return np.asarray(-self.accelerance / squared)
+        receptance = np.full(self.accelerance.shape, np.nan, dtype=complex)
+        moving = self.frequency_hz > 0
+        receptance[:, moving] = -self.accelerance[:, moving] / (2 * np.pi * self.frequency_hz[moving]) ** 2
+        return receptance
 
     def __len__(self) -> int:
         return len(self.responses)
