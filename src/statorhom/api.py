@@ -9,9 +9,9 @@ from pathlib import Path
 
 from statorhom.errors import InputFileError
 from statorhom.geometry.stator import StatorGeometry, stator_geometry
-from statorhom.identify.chain import chain, silent
+from statorhom.identify.announce import Announce, silent
+from statorhom.identify.chain import chain
 from statorhom.identify.settings import Settings
-from statorhom.identify.stage_run import Announce
 from statorhom.report import write_report
 from statorhom.results.files import read_results
 from statorhom.results.schema import Results

@@ -12,8 +12,8 @@ import pytest
 from cheap_study import coarse, edit, write_study
 from statorhom.errors import ResultsError
 from statorhom.identify import chain as chain_module
+from statorhom.identify.announce import Progress
 from statorhom.identify.chain import chain
-from statorhom.identify.optimizers.workers import Progress
 from statorhom.identify.settings import Settings
 from statorhom.results.files import read_results
 from statorhom.results.schema import Results, StageResult

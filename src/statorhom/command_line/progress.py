@@ -8,8 +8,7 @@ from contextlib import contextmanager
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from statorhom.identify.chain import silent
-from statorhom.identify.stage_run import Announce
+from statorhom.identify.announce import Announce, silent
 
 
 @contextmanager

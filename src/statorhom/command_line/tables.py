@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-import pandas as pd
+from typing import TYPE_CHECKING
+
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from statorhom.results.schema import Results, StageResult
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from statorhom.results.schema import Results, StageResult
 
 
 def print_materials(results: Results) -> None:
@@ -29,6 +33,8 @@ def print_materials(results: Results) -> None:
 
 def print_modes(table: pd.DataFrame) -> None:
     """Simulated modes."""
+    import pandas as pd  # here, so that a usage error is answered without it
+
     shown = Table(*(str(c) for c in table.columns), box=None, pad_edge=False)
     for row in table.itertuples(index=False):
         shown.add_row(

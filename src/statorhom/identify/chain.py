@@ -11,11 +11,12 @@ from pathlib import Path
 from threadpoolctl import threadpool_limits
 
 from statorhom.geometry.stator import StatorGeometry, stator_geometry
-from statorhom.identify.optimizers.workers import Progress, Workers
+from statorhom.identify.announce import Announce, silent
+from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.priors import Carried
 from statorhom.identify.settings import Settings
 from statorhom.identify.stage_result import mass_only, stage_result
-from statorhom.identify.stage_run import Announce, run_stage
+from statorhom.identify.stage_run import run_stage
 from statorhom.identify.stage_setup import StageSetup, analytic_values, check_fit, stage_setup
 from statorhom.identify.stage_shapes import free_shapes
 from statorhom.identify.supported_results import supported_results
@@ -28,11 +29,6 @@ from statorhom.study.study import StudyFiles
 from statorhom.study.supports import SupportKeys
 
 FORMAT = 1  # of the program's results: a change of method makes earlier ones stale
-
-
-def silent(_what: str, _count: int) -> Progress:
-    """Announce nothing."""
-    return lambda _done: None
 
 
 @dataclass(frozen=True)

@@ -7,11 +7,12 @@ from collections.abc import Iterable
 import numpy as np
 
 from statorhom.errors import IdentificationError, SolverError
+from statorhom.identify.announce import Progress
 from statorhom.identify.bounds import Array
 from statorhom.identify.optimizers.annealing import SimulatedAnnealing
 from statorhom.identify.optimizers.base import Optimizer
 from statorhom.identify.optimizers.ensemble import run_ensemble
-from statorhom.identify.optimizers.workers import Progress, Tick, Workers
+from statorhom.identify.optimizers.workers import Tick, Workers
 from statorhom.identify.polish import Optimum, polish
 from statorhom.identify.problem import Problem
 

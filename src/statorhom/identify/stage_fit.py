@@ -8,12 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from statorhom.errors import IdentificationError
+from statorhom.identify.announce import Progress
 from statorhom.identify.intervals import Posterior, posterior
 from statorhom.identify.model_error import model_error
 from statorhom.identify.optima import distinct_optima, find_optima
 from statorhom.identify.optimizers.annealing import SimulatedAnnealing
 from statorhom.identify.optimizers.threshold import ThresholdAccepting
-from statorhom.identify.optimizers.workers import Progress, Tick, Workers
+from statorhom.identify.optimizers.workers import Tick, Workers
 from statorhom.identify.parameters import Parameter, ParameterSpace
 from statorhom.identify.polish import Optimum, polish
 from statorhom.identify.stage_materials import DENSITY

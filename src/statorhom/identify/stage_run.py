@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from statorhom.errors import IdentificationError
+from statorhom.identify.announce import Announce
 from statorhom.identify.bands import highest_hz, mode_names
 from statorhom.identify.model_error import ModelError, model_error
-from statorhom.identify.optimizers.workers import Progress, Workers
+from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.polish import Optimum, polish
 from statorhom.identify.priors import Carried, stage_space
 from statorhom.identify.refinement import Band, MeshSeries
@@ -21,9 +21,6 @@ from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.free_modes import FreeModes
 from statorhom.model.harmonic import problems_of
-
-Announce = Callable[[str, int], Progress]
-"""Called with what begins and how many units of work it has; returns what counts them."""
 
 BAND_MARGIN = 1.15
 # of the convergence study, for orders that no fitted mode has: meshes, and modes of each harmonic problem

@@ -13,11 +13,11 @@ from typing import Any, TypeVar
 from threadpoolctl import threadpool_limits
 
 from statorhom.errors import IdentificationError
+from statorhom.identify.announce import Progress
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
 Tick = Callable[[], None]
-Progress = Callable[[int], None]
 
 POLL_S = 0.1
 
