@@ -12,6 +12,7 @@ from statorhom.identify.stage_materials import RegionModel, StageMaterials
 from statorhom.materials.analytic import analytic_lamination, analytic_winding
 from statorhom.materials.density import REGION_OF_STEP, RegionDensity, Weighing, check_no_loss, densities
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
+from statorhom.study.inherited_identify import with_inherited_identify
 from statorhom.study.message import input_error, one_line
 from statorhom.study.modal_table import MeasuredMode
 from statorhom.study.modal_tests import ModalTestKeys
@@ -86,7 +87,7 @@ def stage_setup(files: StudyFiles, geometry: StatorGeometry, index: int) -> Stag
     StatorhomError
         If masses, geometry or tests of the stage contradict each other.
     """
-    keys = files.study.stages[index]
+    keys = with_inherited_identify(files.study, index)
     tests = tuple(_test_modes(files, test) for test in keys.tests)
     kinds = tuple(stage.kind for stage in files.study.stages[: index + 1])
     step = geometry.step(kinds) if tests or _described(geometry, kinds) else None
