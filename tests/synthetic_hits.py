@@ -6,10 +6,13 @@ which eight times the recorder's sample rate makes indistinguishable from the sm
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
-from scipy import signal
+from scipy import optimize, signal
 
 from statorhom.recordings.dof import Dof
+from statorhom.recordings.estimation.sweep_plan import SweepStage, sweep_signal
 from statorhom.recordings.hit import Hit
 
 RATE_HZ = 12800.0
@@ -50,6 +53,16 @@ def pulse(time: np.ndarray, start_s: float, width_s: float) -> np.ndarray:
     return 0.5 - 0.5 * np.cos(2 * np.pi * phase)
 
 
+def recorded(fine: np.ndarray) -> np.ndarray:
+    """What a recorder with an anti-aliasing filter, alike in all channels, makes of the signals."""
+    taps = 20 * OVERSAMPLING + 1
+    low_pass = signal.firwin(taps, 0.82 / OVERSAMPLING)
+    padded = np.pad(fine, ((0, 0), (taps // 2, taps // 2)))
+    return signal.upfirdn(low_pass, padded, 1, OVERSAMPLING, axis=1)[
+        :, 20 : 20 + fine.shape[1] // OVERSAMPLING
+    ]
+
+
 def hit(
     number: int = 1,
     *,
@@ -67,27 +80,32 @@ def hit(
     time = np.arange(round(duration_s * RATE_HZ) * OVERSAMPLING) / fine
     jitter = rng.uniform(0, 1 / RATE_HZ)
     force = sum(height * pulse(time, start + jitter, width_s) for start, height in pulses)
-    records = np.vstack([force, accelerations(force, fine, damping)])[:, ::OVERSAMPLING]
+    records = recorded(np.vstack([force, accelerations(force, fine, damping)]))
     size = noise * np.abs(records).max(axis=1, keepdims=True)
     records = records + size * rng.standard_normal(records.shape)
     return Hit(number, RATE_HZ, records[0], records[1:], REFERENCE, responses, "synthetic")
 
 
 def damping_ratio(frequency_hz: np.ndarray, values: np.ndarray, near_hz: float) -> float:
-    """Damping ratio of the mode near a frequency, by a local rational fit; independent of the program's own.
-
-    H·d(s) = n(s) with quadratic d and n over a narrow band, weighted by the last denominator (Sanathanan-Koerner).
-    """
+    """Damping ratio of the mode near a frequency: least squares of one pole and a line, none of the program's own."""
     band = np.abs(frequency_hz - near_hz) < 0.02 * near_hz
-    s = 1j * (frequency_hz[band] - near_hz)
-    weight = np.ones(len(s))
-    for _ in range(20):
-        columns = np.column_stack([values[band], -np.ones_like(s), -s, -(s**2)]) * weight[:, None]
-        target = -s * values[band] * weight
-        stacked = np.vstack([columns.real, columns.imag]), np.concatenate([target.real, target.imag])
-        # the pole is complex in this shifted plane, so all unknowns are
-        unknowns = np.linalg.lstsq(columns, target, rcond=None)[0]
-        weight = 1 / np.abs(s + unknowns[0])
-    del stacked
-    pole = 2 * np.pi * (-unknowns[0] + 1j * near_hz)
-    return float(-pole.real / abs(pole))
+    offset, measured = frequency_hz[band] - near_hz, values[band]
+
+    def residual(pole: np.ndarray) -> np.ndarray:
+        columns = np.column_stack([1 / (offset - complex(*pole)), np.ones_like(offset), offset])
+        rest = measured - columns @ np.linalg.lstsq(columns, measured, rcond=None)[0]
+        return np.concatenate([rest.real, rest.imag])
+
+    real, imaginary = optimize.least_squares(residual, [0.0, 0.005 * near_hz], x_scale=[1.0, 1.0]).x
+    return float(imaginary / np.hypot(near_hz + real, imaginary))
+
+
+def sweep(stages: Sequence[SweepStage], *, noise: float = 0.0, seed: int = 0) -> Hit:
+    """A recorded sine sweep: noise is a fraction of each channel's rms value."""
+    fine = RATE_HZ * OVERSAMPLING
+    quiet = np.zeros(round(0.5 * fine))
+    force = np.concatenate([quiet, sweep_signal(stages, fine), quiet, quiet])
+    records = recorded(np.vstack([force, accelerations(force, fine)]))
+    size = noise * records.std(axis=1, keepdims=True)
+    records = records + size * np.random.default_rng(seed).standard_normal(records.shape)
+    return Hit(1, RATE_HZ, records[0], records[1:], REFERENCE, RESPONSES, "synthetic")

@@ -82,7 +82,9 @@ def check_hits(found: Sequence[FoundHit], decay_per_s: float, settings: HitSetti
 
 
 def _reach_hz(found: FoundHit) -> float:
-    force = windowed_force(found)
+    # of its strongest pulse alone: the notches of a double hit's spectrum are not the tip's doing
+    strongest = max(found.pulses, key=lambda pulse: abs(pulse.height_n))
+    force = windowed_force(found.hit.force_n, [strongest])
     frequency = np.asarray(np.fft.rfftfreq(len(force), 1.0 / found.hit.sample_rate_hz), dtype=float)
     return upper_usable_hz(frequency, np.abs(np.fft.rfft(force)) ** 2)
 

@@ -43,6 +43,7 @@ def end_level(response: FloatArray) -> tuple[float, int]:
     if not rings.any():
         return 0.0, 0
     decayed = np.where(rings, last / np.where(rings, first, 1.0), 0.0)
-    line = int(np.argmax(decayed))
+    # beside a mode's line its skirts have ratios of their own: the strongest of comparable lines is the mode
+    line = int(np.argmax(np.where(decayed > 0.5 * decayed.max(), last, 0.0)))
     # from the middle of the first part to that of the last it decays over 7/8 of the record
     return float(decayed[line] ** (0.5 * _PARTS / (_PARTS - 1))), line + 1

@@ -12,10 +12,12 @@ FloatArray = npt.NDArray[np.float64]
 _SIDE = 0.25  # of the largest swing; a hammer only pushes, and its rest on the other side is no top
 _FEWEST = 3  # samples that equal the extreme
 _FINEST_STEP = 1e-5  # of the extreme: universal files in ASCII hold six digits
-_FLAT_DROP = 6.0  # steps; a parabola whose top spans three equal samples drops by at most four beside it
+_FLAT_DROP = (
+    12.0  # steps; a parabola whose top holds n equal samples drops by at most nine within n beside them
+)
 _CLOSE = 100.0  # steps
 _LONELY = 2.0  # a smooth top has many more samples close to the extreme than at it
-_PILE_FEWEST = 6  # samples
+_PILE_FEWEST = 20  # samples
 _PILE = 5.0  # a smooth top, however it is sampled, holds at most this many times the next slice's samples
 _PILE_SIGMAS = 6.0
 _WIDEST_SLICE = 0.1  # of the extreme; beyond it noise hides what a top looks like
@@ -48,8 +50,9 @@ def _is_flat(side: FloatArray, step: float) -> bool:
     top = side.max()
     edges = np.flatnonzero(np.diff(np.concatenate(([False], side == top, [False])).astype(int)))
     for start, stop in edges.reshape(-1, 2):
-        beside = [side[i] for i in (start - 1, stop) if 0 <= i < len(side)]
-        if stop - start >= _FEWEST and beside and top - min(beside) > _FLAT_DROP * step:
+        run = stop - start
+        beside = np.concatenate((side[max(0, start - run) : start], side[stop : stop + run]))
+        if run >= _FEWEST and top - beside.min(initial=top) > _FLAT_DROP * step:
             return True
     return False
 

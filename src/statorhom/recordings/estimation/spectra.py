@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
+from statorhom.recordings.estimation.pulses import Pulse
 from statorhom.recordings.estimation.segments import FoundHit
 from statorhom.recordings.estimation.windows import exponential_window, force_window
 
@@ -35,10 +37,9 @@ class AveragedSpectra:
     averages: FloatArray
 
 
-def windowed_force(found: FoundHit) -> FloatArray:
-    """Force over its rest, outside of its pulses zero."""
-    force = found.hit.force_n
-    window = force_window(len(force), found.pulses[0].start, found.pulses[-1].stop)
+def windowed_force(force: FloatArray, pulses: Sequence[Pulse]) -> FloatArray:
+    """Force over its rest, outside of the pulses zero."""
+    window = force_window(len(force), pulses[0].start, pulses[-1].stop)
     return np.asarray(window * (force - np.median(force)))
 
 
@@ -49,7 +50,7 @@ def hit_spectra(
     hit = found.hit
     window = exponential_window(len(hit.force_n), hit.sample_rate_hz, window_decay_per_s)
     response = hit.acceleration_m_s2 - hit.acceleration_m_s2.mean(axis=1, keepdims=True)
-    force = np.fft.rfft(window * windowed_force(found))[lines]
+    force = np.fft.rfft(window * windowed_force(hit.force_n, found.pulses))[lines]
     return force, np.fft.rfft(window * response, axis=1)[:, lines]
 
 

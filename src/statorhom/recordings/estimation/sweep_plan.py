@@ -88,6 +88,22 @@ def fine_stages(
     return tuple(stages)
 
 
+def two_stage_plan(
+    start_hz: float, stop_hz: float, rate_hz_per_s: float, modes: Sequence[tuple[float, float]]
+) -> tuple[SweepStage, ...]:
+    """Coarse sweep over the band, then the fine stages of those modes that it passes too fast.
+
+    Parameters
+    ----------
+    start_hz, stop_hz, rate_hz_per_s : float
+        The coarse stage.
+    modes : sequence of (frequency_hz, damping_ratio)
+        As far as the coarse stage, or a guess, tells them.
+    """
+    slow = [mode for mode in modes if highest_rate_hz_per_s(*mode) < rate_hz_per_s]
+    return (SweepStage(start_hz, stop_hz, rate_hz_per_s), *fine_stages(slow))
+
+
 def sweep_signal(stages: Sequence[SweepStage], sample_rate_hz: float) -> FloatArray:
     """Sine of amplitude one that runs through the stages, one after the other and each from phase zero.
 
