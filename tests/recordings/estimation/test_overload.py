@@ -48,7 +48,8 @@ def test_clipped_records_are_found(
 ) -> None:
     record = decaying(frequency_hz, decay_per_s, phase)
     record = record + noise * np.random.default_rng(0).standard_normal(len(record))
-    record = np.clip(np.round(record * 2 ** (bits - 1)) / 2 ** (bits - 1), -level, level)
+    limit = level * np.abs(record).max()
+    record = np.clip(np.round(record * 2 ** (bits - 1)) / 2 ** (bits - 1), -limit, limit)
     assert is_clipped(record, tail(record))
     assert is_clipped(-1e4 * record, tail(-1e4 * record))
 

@@ -58,7 +58,7 @@ def test_noise_scatters_as_the_relative_sd_says() -> None:
     ("settings", "words"),
     [
         (SweepSettings(500.0, 6390.0, 1.0), "does not excite"),
-        (SweepSettings(500.0, 800.0, 60.0), "shorter than two segments"),
+        (SweepSettings(500.0, 800.0, 60.0), "shorter than a segment"),
         (SweepSettings(500.1, 500.2, 1.0), "no line"),
     ],
 )

@@ -7,7 +7,7 @@ hands on to the next; the second-order one is given with `SweepSettings.segment_
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -44,7 +44,7 @@ def estimate_sweep_frf(records: Sequence[Hit], settings: SweepSettings) -> FrfSe
     Raises
     ------
     RecordingError
-        When the records' sample rates differ, they are shorter than two segments, values are no numbers, or
+        When the records' sample rates differ, they are shorter than a segment, values are no numbers, or
         the force does not reach all of the band.
     """
     check_records(records)
@@ -73,26 +73,21 @@ def estimate_sweep_frf(records: Sequence[Hit], settings: SweepSettings) -> FrfSe
 
 
 def _averaged(records: Sequence[Hit], samples: int, lines: slice) -> AveragedSpectra:
-    """Sums over all segments of all records of a set-up."""
+    """Averages over all segments of all records of a set-up."""
     channels = len(records[0].responses)
     force = np.zeros(lines.stop - lines.start)
     response = np.zeros((channels, len(force)))
     cross = np.zeros(response.shape, dtype=complex)
     window = np.hanning(samples + 1)[:-1]
-    segments = 0
+    step = samples // _STEPS
+    segments = 0.0
     for record in records:
-        if len(record.force_n) < 2 * samples:
-            raise RecordingError(
-                f"{record_name(record)} is shorter than two segments: give a shorter segment_s"
-            )
-        signals = np.vstack([record.force_n, record.acceleration_m_s2])
-        signals -= signals.mean(axis=1, keepdims=True)
-        for start in range(0, signals.shape[1] - samples + 1, samples // _STEPS):
-            spectrum = np.fft.rfft(window * signals[:, start : start + samples], axis=1)[:, lines]
+        for signals in _segments(record, samples, step):
+            spectrum = np.fft.rfft(window * signals, axis=1)[:, lines]
             force += np.abs(spectrum[0]) ** 2
             response += np.abs(spectrum[1:]) ** 2
             cross += spectrum[1:] * spectrum[0].conj()
-            segments += 1
+        segments += len(record.force_n) / step
     if force.min() <= _UNEXCITED * force.max():
         raise RecordingError(f"{record_name(records[0])}: the force does not excite all of the swept band")
     return AveragedSpectra(
@@ -101,3 +96,15 @@ def _averaged(records: Sequence[Hit], samples: int, lines: slice) -> AveragedSpe
         cross=np.asarray(cross / segments, dtype=complex),
         averages=np.full(channels, max(_INDEPENDENT * segments, 2.0)),
     )
+
+
+def _segments(record: Hit, samples: int, step: int) -> Iterator[FloatArray]:
+    """Overlapping segments of the force and, below it, the accelerations."""
+    if len(record.force_n) < samples:
+        raise RecordingError(f"{record_name(record)} is shorter than a segment: give a shorter segment_s")
+    signals = np.vstack([record.force_n, record.acceleration_m_s2])
+    signals -= signals.mean(axis=1, keepdims=True)
+    # all rests before and after the sweep; so its first and last samples count as much as those between
+    signals = np.pad(signals, ((0, 0), (samples, samples)))
+    for start in range(0, signals.shape[1] - samples + 1, step):
+        yield signals[:, start : start + samples]
