@@ -34,7 +34,8 @@ def test_hits_are_aligned_at_their_pulses() -> None:
     assert before == round(0.004 * RATE_HZ)
     assert {one.pulses[0].start for one in cut} == {before}
     assert {one.hit.acceleration_m_s2.shape for one in cut} == {(2, samples)}
-    assert samples == pytest.approx(0.854 * RATE_HZ, abs=3)
+    # the later hit leaves 0.85 s, less what a fast FFT costs
+    assert 0.98 * 0.854 * RATE_HZ < samples <= 0.855 * RATE_HZ
 
 
 def test_mixed_sample_rates_are_one_clear_line() -> None:
