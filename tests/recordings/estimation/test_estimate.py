@@ -165,6 +165,18 @@ def test_other_faults(records: list[Hit], settings: HitSettings | None, expected
     ]
 
 
+def test_a_clipped_force_spoils_all_channels_of_its_hit() -> None:
+    hits = [hit(number, seed=5, width_s=1.5e-3) for number in (1, 2, 3)]
+    limit = 0.7 * hits[1].force_n.max()
+    hits[1] = replace(hits[1], force_n=np.minimum(hits[1].force_n, limit))
+    estimate = estimate_frf(hits)
+    assert [(fault.hit, fault.channel, fault.kind) for fault in estimate.faults] == [(2, None, "overload")]
+    assert estimate.used_hits == ((1, 3), (1, 3))
+    kept = estimate_frf(hits, HitSettings(keep=frozenset({"overload"})))
+    assert kept.used_hits == ((1, 2, 3), (1, 2, 3))
+    assert "left out" not in kept.faults[0].statement
+
+
 def test_an_exponential_window_cures_leakage() -> None:
     assert estimate_frf([hit(duration_s=0.15)], HitSettings(exponential_end_level=0.01)).faults == ()
 
