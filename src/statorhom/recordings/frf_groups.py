@@ -67,6 +67,20 @@ def frf_sets(frfs: Sequence[Frf], source: str) -> tuple[tuple[FrfSet, ...], tupl
     return tuple(frfs_of_axis for frfs_of_axis in sets if frfs_of_axis is not None), tuple(remarks)
 
 
+def single_frfs(frf_set: FrfSet) -> list[Frf]:
+    """The FRFs of a set one by one."""
+    return [
+        Frf(
+            frf_set.responses[row],
+            frf_set.references[row],
+            frf_set.frequency_hz,
+            frf_set.accelerance[row],
+            None if frf_set.coherence is None else frf_set.coherence[row],
+        )
+        for row in range(len(frf_set))
+    ]
+
+
 def same_axis(first: np.ndarray, second: np.ndarray) -> bool:
     """Whether two axes differ by no more than the digits that files print."""
     return len(first) == len(second) and bool(np.allclose(first, second, rtol=_SAME_AXIS, atol=0.0))

@@ -35,13 +35,16 @@ class ModalTestKeys(Keys):
     hammer_mm: Point | None = None
     response_mm: Point | None = None
     direction: Annotated[str, Field(strict=True)] | None = None
+    force_full_scale_n: Positive | None = None
+    acceleration_full_scale_m_s2: Positive | None = None
     role: Literal["fit", "predict"] | None = None
     hold_out: tuple[WholeNumber, ...] = ()
 
     @field_validator("direction")
     @classmethod
     def _known_direction(cls, direction: str | None) -> str | None:
-        if direction is not None and direction.lstrip("+-") not in ("r", "theta", "x", "y", "z"):
+        unsigned = direction and direction.removeprefix("-" if direction.startswith("-") else "+")
+        if direction is not None and unsigned not in ("r", "theta", "x", "y", "z"):
             raise ValueError("is no direction; use r, theta, x, y or z, with a sign where it is reversed")
         return direction
 

@@ -81,13 +81,13 @@ def find_blocks(path: Path, data: Buffer) -> tuple[list[Block], list[str]]:
         type_line, start = _line(data, position)
         if not type_line.strip() and not data[start:].strip():
             break
-        block, position = _block(path, len(blocks) + 1, data, type_line, start)
+        block, after = _block(path, len(blocks) + 1, data, type_line, start)
         blocks.append(block)
-        if position is None:
+        if after is None:
             return blocks, ["the last dataset is not closed by -1"]
         # where a delimiter is missing, the one that is there both closes and opens
-        opening = _OPENING.match(data, position)
-        position = opening.end() if opening else position
+        opening = _OPENING.match(data, after)
+        position = opening.end() if opening else after
     return blocks, []
 
 

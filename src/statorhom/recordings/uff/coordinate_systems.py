@@ -80,7 +80,9 @@ def read_systems(place: Place, lines: list[str], units: Units) -> dict[int, Coor
         # the line with the dataset's type is the first one
         line = start + 2
         if len(batch) < _LINES_PER_SYSTEM:
-            raise place.error(line, "ends within a coordinate system", "the file is truncated; export it again")
+            raise place.error(
+                line, "ends within a coordinate system", "the file is truncated; export it again"
+            )
         label, kind, _ = fields(place, line, batch[0], _LABEL)
         matrix = np.array([reals(place, line + 2 + row, text, 3) for row, text in enumerate(batch[2:])])
         axes = matrix[:3]

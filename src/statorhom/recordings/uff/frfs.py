@@ -95,7 +95,9 @@ def _check_frequencies(function: Function) -> None:
     axis, frequency = function.header.abscissa, function.abscissa
     if axis.quantity not in (0, 1, FREQUENCY) or plain(axis.unit) not in _HERTZ:
         raise function.place.error(
-            _ABSCISSA_LINE, "the abscissa of an FRF is not a frequency in Hz", "export it over frequency in Hz"
+            _ABSCISSA_LINE,
+            "the abscissa of an FRF is not a frequency in Hz",
+            "export it over frequency in Hz",
         )
     if not np.isfinite(frequency).all() or frequency[0] < 0 or (np.diff(frequency) <= 0).any():
         raise function.place.error(None, "frequencies do not ascend from 0 or above", "export the FRF again")

@@ -118,12 +118,16 @@ def sample_rate(function: Function) -> float:
     """
     axis, times = function.header.abscissa, function.abscissa
     if axis.quantity not in (0, 1, TIME) or plain(axis.unit) not in _SECONDS:
-        raise function.place.error(_ABSCISSA_LINE, "the abscissa is not a time in s", "export it over time in s")
+        raise function.place.error(
+            _ABSCISSA_LINE, "the abscissa is not a time in s", "export it over time in s"
+        )
     if len(times) < 2:
         raise function.place.error(None, "has a single sample", "export the whole record")
     steps = np.diff(times)
     step = float(np.mean(steps))
     if not step > 0 or not np.isfinite(step) or np.max(np.abs(steps - step)) > _EVEN * step:
-        raise function.place.error(None, "samples are not evenly spaced in time", "export evenly sampled records")
+        raise function.place.error(
+            None, "samples are not evenly spaced in time", "export evenly sampled records"
+        )
     whole = round(1 / step)
     return float(whole) if whole and f"{1 / whole:.5e}" == f"{step:.5e}" else 1 / step

@@ -9,7 +9,15 @@ from statorhom.recordings.uff.records import Place
 from statorhom.recordings.uff.units import Units
 from statorhom.study.message import quoted
 
-DISPLACEMENT, REACTION_FORCE, VELOCITY, ACCELERATION, EXCITATION_FORCE, TIME, FREQUENCY = 8, 9, 11, 12, 13, 17, 18
+DISPLACEMENT, REACTION_FORCE, VELOCITY, ACCELERATION, EXCITATION_FORCE, TIME, FREQUENCY = (
+    8,
+    9,
+    11,
+    12,
+    13,
+    17,
+    18,
+)
 _UNSPECIFIC = (0, 1)
 _QUANTITIES = {
     DISPLACEMENT: "displacement",

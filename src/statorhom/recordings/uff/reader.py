@@ -86,7 +86,9 @@ def _mapped(path: Path) -> Iterator[Buffer]:
             yield data
     except OSError as error:
         reason = error.strerror or "unknown reason"
-        raise recording_error(path, "", f"cannot be read ({reason})", "check the path and permissions") from None
+        raise recording_error(
+            path, "", f"cannot be read ({reason})", "check the path and permissions"
+        ) from None
     except ValueError as error:
         if path.stat().st_size:
             raise
@@ -101,13 +103,13 @@ def _units(path: Path, blocks: list[Block], data: Buffer) -> Units:
     units = [read_units(block.place, block.lines(data)) for block in blocks]
     for block, other in zip(blocks, units, strict=True):
         if other != units[0]:
-            raise block.place.error(None, "units differ from those of an earlier dataset 164", "keep one of them")
+            raise block.place.error(
+                None, "units differ from those of an earlier dataset 164", "keep one of them"
+            )
     return units[0]
 
 
-def _geometry(
-    by_kind: dict[int, list[Block]], data: Buffer, units: Units
-) -> tuple[Geometry, list[str]]:
+def _geometry(by_kind: dict[int, list[Block]], data: Buffer, units: Units) -> tuple[Geometry, list[str]]:
     systems = {}
     for block in by_kind[_SYSTEMS]:
         systems.update(read_systems(block.place, block.lines(data), units))

@@ -47,7 +47,9 @@ def read_shape(place: Place, lines: list[str]) -> ModeShape | None:
     frequency, damping = _pole(place, analysis, lines[7])
     width = per_node * (2 if data_type == _COMPLEX else 1)
     nodes, values = _data(place, lines[_HEADER_LINES:], width)
-    complex_values = values[:, 0::2] + 1j * values[:, 1::2] if data_type == _COMPLEX else values.astype(complex)
+    complex_values = (
+        values[:, 0::2] + 1j * values[:, 1::2] if data_type == _COMPLEX else values.astype(complex)
+    )
     return ModeShape(frequency, damping, tuple(nodes), np.ascontiguousarray(complex_values[:, :3]))
 
 
