@@ -12,11 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
-from statorhom.errors import MissingDependencyError, RecordingError
 from statorhom.recordings.dof import Dof, Vector
 from statorhom.recordings.frf_groups import Frf
 from statorhom.recordings.message import recording_error
-from statorhom.study.message import one_line, quoted
+from statorhom.study.message import quoted
 
 REQUIRED = ("frequency_hz", "accelerance", "response_node", "reference_node")
 NAMES = (
@@ -28,55 +27,6 @@ _UNIT = 1e-3
 _LARGEST_NODE = 10**9
 
 Arrays = Mapping[str, np.ndarray]
-
-
-def read_hdf5(path: Path) -> Arrays:
-    """The known arrays of an HDF5 file, also of a MAT file of version 7.3.
-
-    Raises
-    ------
-    RecordingError
-    MissingDependencyError
-        Without h5py.
-    """
-    try:
-        import h5py
-    except ImportError:
-        raise MissingDependencyError(
-            f"{one_line(str(path))}: reading HDF5 needs h5py; install statorhom[hdf5]"
-        ) from None
-    arrays: dict[str, np.ndarray] = {}
-    try:
-        with h5py.File(path, "r") as file:
-            for name in NAMES:
-                dataset = file.get(name)
-                if not isinstance(dataset, h5py.Dataset):
-                    continue
-                array = np.asarray(dataset[()])
-                if array.dtype.names == ("real", "imag"):
-                    array = array["real"] + 1j * array["imag"]
-                # MATLAB stores arrays by columns, so that they appear transposed
-                arrays[name] = array.T if "MATLAB_class" in dataset.attrs else array
-    # h5py raises whatever its library meets in a damaged file
-    except (OSError, ValueError, TypeError, KeyError, RuntimeError, MemoryError) as error:
-        raise _damaged(path, error) from None
-    return arrays
-
-
-def read_mat(path: Path) -> Arrays:
-    """The known arrays of a MAT file up to version 7.2.
-
-    Raises
-    ------
-    RecordingError
-    """
-    from scipy.io import loadmat
-
-    try:
-        return {k: np.asarray(v) for k, v in loadmat(path, variable_names=list(NAMES)).items() if k in NAMES}
-    # scipy's reader lets any exception through that damaged bytes lead to
-    except Exception as error:
-        raise _damaged(path, error) from None
 
 
 def frfs_of_arrays(path: Path, arrays: Arrays) -> list[Frf]:
@@ -176,7 +126,3 @@ def _numbers(path: Path, arrays: Arrays, name: str, kind: type = float) -> np.nd
 
 def _vector(values: np.ndarray) -> Vector:
     return (float(values[0]), float(values[1]), float(values[2]))
-
-
-def _damaged(path: Path, error: Exception) -> RecordingError:
-    return recording_error(path, "", f"cannot be read ({quoted(str(error))})", "save or copy the file again")

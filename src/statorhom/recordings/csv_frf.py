@@ -28,7 +28,7 @@ ENDS = ("response", "reference")
 _POINTS = tuple(f"{end}_{axis}_mm" for end in ENDS for axis in "xyz")
 _PAIR = tuple(f"{end}_{what}" for end in ENDS for what in ("node", "direction"))
 _CARTESIAN, _POLAR = ("real", "imag"), ("amplitude", "phase_deg")
-_COLUMNS = ("frequency_hz", *_PAIR, *_CARTESIAN, *_POLAR, "coherence", *_POINTS)
+_COLUMNS = ("frequency_hz", *_CARTESIAN, *_POLAR, "coherence", *_PAIR, *_POINTS)
 _MM = 1e-3
 _LARGEST_NODE = 10**9
 
@@ -86,13 +86,22 @@ def write_csv_frf(path: Path, frf_sets: tuple[FrfSet, ...]) -> None:
     ResultsError
         Where the file cannot be written.
     """
-    tables = [_table(path, frf_set, row) for frf_set in frf_sets for row in range(len(frf_set))]
-    if not tables:
+    ends = [(frf_set, row) for frf_set in frf_sets for row in range(len(frf_set))]
+    if not ends:
         raise recording_error(path, "", "would hold no FRF", "give at least one set with one FRF")
-    # columns that some FRFs lack stay empty there
-    columns = [c for c in _COLUMNS if any(c in table for table in tables)]
-    frame = pd.concat([table.reindex(columns=columns) for table in tables])
-    write_text(path, frame.to_csv(index=False, lineterminator="\n"))
+    has_coherence = any(frf_set.coherence is not None for frf_set in frf_sets)
+    header = ("frequency_hz", *_CARTESIAN, *(("coherence",) if has_coherence else ()), *_PAIR, *_POINTS)
+    lines = [",".join(header)]
+    for frf_set, row in ends:
+        constant = ",".join(_pair_cells(path, frf_set.responses[row], frf_set.references[row]))
+        columns = [frf_set.frequency_hz, frf_set.accelerance[row].real, frf_set.accelerance[row].imag]
+        if has_coherence:
+            columns.append(
+                np.full(len(columns[0]), np.nan) if frf_set.coherence is None else frf_set.coherence[row]
+            )
+        cells = zip(*(column.tolist() for column in columns), strict=True)
+        lines += [f"{','.join(map(repr, line))},{constant}" for line in cells]
+    write_text(path, "\n".join([*lines, ""]))
 
 
 def _rows_of_pairs(table: NumberTable) -> list[np.ndarray]:
@@ -137,21 +146,18 @@ def _dof(table: NumberTable, end: str, row: int) -> Dof:
         ) from None
 
 
-def _table(path: Path, frf_set: FrfSet, row: int) -> pd.DataFrame:
-    columns: dict[str, object] = {"frequency_hz": frf_set.frequency_hz}
-    for end, dof in zip(ENDS, (frf_set.responses[row], frf_set.references[row]), strict=True):
+def _pair_cells(path: Path, *ends: Dof) -> list[str]:
+    """Cells of the columns that name the pair, and of those that say where it lies."""
+    pair, points = [], []
+    for dof in ends:
         name = direction_name(dof)
         if name is None:
             raise recording_error(
                 path,
                 f"node {dof.node}",
                 "has a direction that is none of x, y, z, r and theta",
-                "write a universal file or resolve it first",
+                "write a universal file, or resolve the direction first",
             )
-        columns |= {f"{end}_node": dof.node, f"{end}_direction": name}
-        if dof.position is not None:
-            columns |= {f"{end}_{axis}_mm": p / _MM for axis, p in zip("xyz", dof.position, strict=True)}
-    columns |= {"real": frf_set.accelerance[row].real, "imag": frf_set.accelerance[row].imag}
-    if frf_set.coherence is not None:
-        columns["coherence"] = frf_set.coherence[row]
-    return pd.DataFrame(columns)
+        pair += [str(dof.node), name]
+        points += ["", "", ""] if dof.position is None else [repr(p / _MM) for p in dof.position]
+    return pair + points

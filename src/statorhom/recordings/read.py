@@ -6,11 +6,15 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from statorhom.recordings.array_frf import frfs_of_arrays, read_hdf5, read_mat
+import numpy as np
+
+from statorhom.recordings.array_frf import NAMES, frfs_of_arrays
 from statorhom.recordings.csv_frf import read_csv_frfs
 from statorhom.recordings.csv_hit import FORCE, read_csv_hit
 from statorhom.recordings.frf_groups import Frf, frf_sets, single_frfs
 from statorhom.recordings.frf_set import FrfSet
+from statorhom.recordings.hdf5_file import read_hdf5_arrays
+from statorhom.recordings.mat_file import read_mat_arrays
 from statorhom.recordings.message import recording_error
 from statorhom.recordings.number_table import NumberTable
 from statorhom.recordings.placement import Placement
@@ -26,6 +30,8 @@ _UNIVERSAL_ENDINGS = (".uff", ".unv", ".uf", ".bunv")
 _HEAD = 64
 
 
+# what overflows in a damaged file is found by what is not finite afterwards
+@np.errstate(over="ignore", invalid="ignore")
 def read_recording(paths: Sequence[Path], placement: Placement | None = None) -> Recording:
     """Read the files of one test: universal files, CSV, HDF5, MAT, WAV.
 
@@ -81,9 +87,9 @@ def _one_set_per_axis(
 def _read(path: Path, placement: Placement) -> Recording:
     head = _head(path)
     if head.startswith(_HDF5_SIGNATURES):
-        return _of_frfs(path, frfs_of_arrays(path, read_hdf5(path)))
+        return _of_frfs(path, frfs_of_arrays(path, read_hdf5_arrays(path, NAMES)))
     if head.startswith(_MAT_SIGNATURE) or path.suffix.lower() == ".mat":
-        return _of_frfs(path, frfs_of_arrays(path, read_mat(path)))
+        return _of_frfs(path, frfs_of_arrays(path, read_mat_arrays(path, NAMES)))
     if head.startswith(_WAV_SIGNATURES):
         return Recording(path.stem, hits=(read_wav_hit(path, placement, number=1),))
     is_universal = head.removeprefix(b"\xef\xbb\xbf").split(maxsplit=1)[:1] == [b"-1"]

@@ -106,6 +106,8 @@ def _block(path: Path, number: int, data: Buffer, type_line: str, start: int) ->
     if place.kind == _FUNCTION:
         records = []
         for _ in range(HEADER_RECORDS):
+            if start >= len(data):
+                raise place.error(None, "ends within its header", "the file is truncated; export it again")
             record, start = _line(data, start)
             records.append(record)
         header = read_header(place, records)

@@ -82,8 +82,6 @@ def read_header(place: Place, records: list[str]) -> FunctionHeader:
     ------
     RecordingError
     """
-    if len(records) < HEADER_RECORDS:
-        raise place.error(None, "ends within its header", "the file is truncated; export it again")
     # line 1 holds the dataset's type, lines 2 to 6 are free text
     dof = fields(place, 7, records[5], _DOF)
     form, count, spacing, start, increment, _ = fields(place, 8, records[6], _FORM)

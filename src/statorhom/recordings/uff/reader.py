@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import numpy as np
+
 from statorhom.recordings.frf_groups import frf_sets
 from statorhom.recordings.message import recording_error
 from statorhom.recordings.recording import Node, Recording
@@ -26,6 +28,8 @@ _NODES, _TRACE, _SHAPE, _FUNCTION, _HEADER, _UNITS, _SYSTEMS = (15, 2411), 82, 5
 _KNOWN = {*_NODES, _TRACE, _SHAPE, _FUNCTION, _HEADER, _UNITS, _SYSTEMS}
 
 
+# what overflows in a damaged file is found by what is not finite afterwards
+@np.errstate(over="ignore", invalid="ignore")
 def read_uff(path: Path) -> Recording:
     """Read a universal file: FRFs, coherences, time records, mode shapes, nodes and trace lines.
 
