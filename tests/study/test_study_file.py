@@ -146,6 +146,16 @@ def test_nothing_can_be_changed(folder: Any) -> None:
             'frf = "wound.uff"\ndirection = "up"',
             ["direction", "use r, theta, x, y or z"],
         ),
+        (
+            'frf = "wound.uff"',
+            'frf = "wound.uff"\ndirection = "--z"',
+            ["direction", "use r, theta, x, y or z"],
+        ),
+        (
+            'frf = "wound.uff"',
+            'frf = "wound.uff"\nforce_full_scale_n = 0.0',
+            ["force_full_scale_n", "greater than 0"],
+        ),
         ('frf = "wound.uff"', 'frf = "wound.uff"\nhammer_mm = [1.0, 2.0]', ["hammer_mm: has only 2"]),
         ('frf = "wound.uff"', 'hits = ["a.csv", 3]', ["tests[wound-clamped].hits[#2]", "must be text"]),
         ("[[supports]]", "[supports]", ["supports: must be a list of tables", "double square brackets"]),

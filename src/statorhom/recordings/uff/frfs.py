@@ -47,7 +47,7 @@ def frfs(functions: Sequence[Function], geometry: Geometry, units: Units) -> tup
     for function in functions:
         if function.header.kind == COHERENCE:
             coherences[_pair(function.header)].append(function)
-    left_out: Counter[str] = Counter()
+    noted: Counter[str] = Counter()
     unknown_units: set[str] = set()
     found = []
     for function in functions:
@@ -56,17 +56,17 @@ def frfs(functions: Sequence[Function], geometry: Geometry, units: Units) -> tup
             continue
         reason = _why_not(header)
         if reason:
-            left_out[reason] += 1
+            noted[reason] += 1
             continue
         if not header.is_complex:
-            left_out["are real (kept, without phase)"] += 1
+            noted["are real (kept, without phase)"] += 1
         _check_frequencies(function)
         accelerance = _accelerance(function, units, unknown_units)
         coherence = _coherence(function, coherences[_pair(header)])
         response = geometry.dof(header.response_node, header.response_direction)
         reference = geometry.dof(header.reference_node, header.reference_direction)
         found.append(Frf(response, reference, function.abscissa, accelerance, coherence))
-    remarks = [f"{count} FRFs {reason}" for reason, count in left_out.items()]
+    remarks = [f"{count} FRFs {reason}" for reason, count in noted.items()]
     remarks += [f'unit "{unit}" is taken for that of the file' for unit in sorted(unknown_units)]
     spare = sum(map(len, coherences.values()))
     return found, remarks + ([f"{spare} coherences belong to no FRF and are left out"] if spare else [])
