@@ -120,6 +120,25 @@ def test_quantity_that_only_the_unit_tells(path):
     np.testing.assert_array_equal(only_frf(path), VALUES)
 
 
+@pytest.mark.parametrize("first", ["1 SI", "         1SI                           2", "1"])
+def test_ways_to_name_the_unit_system(path, first):
+    text = units().replace(f"{1:10d}{'units':20s}{2:10d}", first)
+    assert first in text
+    write(path, text, function(THREE))
+    np.testing.assert_array_equal(only_frf(path), VALUES)
+
+
+def test_a_unit_that_says_nothing_is_mentioned(path):
+    write(path, units(), function(THREE, ordinate=(12, "EU")))
+    assert 'unit "EU" is taken for that of the file' in read_uff(path).remarks
+
+
+def test_real_frfs_are_kept_and_mentioned(path):
+    write(path, units(), function("".join(f"{x:13.5e}" for x in (1, 2, 3)), form=2))
+    np.testing.assert_array_equal(only_frf(path), [1, 2, 3])
+    assert "1 FRFs are real (kept, without phase)" in read_uff(path).remarks
+
+
 def test_units_of_the_file_are_converted(path):
     trace = function(THREE, ordinate=(12, "mm/s^2"), denominator=(13, "mN"))
     write(path, units(5, 1e3, 1e3), NODES, trace)

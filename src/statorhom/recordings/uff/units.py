@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 
 from statorhom.recordings.uff.records import Place, number
@@ -19,6 +20,8 @@ _FACTORS = {
     8: (1e3, 1 / 9.80665),
     10: (1e3, 1.0),
 }
+# the description that follows may touch it
+_CODE = re.compile(r"^\s*(\d{1,9})")
 _SI_NOW = "export the file in SI units (m, N, s)"
 
 
@@ -50,7 +53,7 @@ def read_units(place: Place, lines: list[str]) -> Units:
         Also where the factors are not those of the named unit system: one of the two is wrong.
     """
     try:
-        code = int(lines[0][:10])
+        code = int(_CODE.findall(lines[0])[0])
         length, force = (number(word) for word in " ".join(lines[1:]).split()[:2])
     except (ValueError, IndexError):
         raise place.error(None, "does not hold a unit system and its factors", _SI_NOW) from None
