@@ -142,7 +142,7 @@ def test_damaged_files(tmp_path, name, changes):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", WRITERS)
-@fuzz(20_000)
+@fuzz(4_000)
 @given(changes=CHANGES)
 def test_many_damaged_files(tmp_path, name, changes):
     check(tmp_path / name, mutated(valid(name), changes))

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from statorhom.errors import RecordingError
 from statorhom.recordings.message import recording_error
 from statorhom.study.message import one_line, quoted
 from statorhom.study.nearest import hint
@@ -93,6 +94,6 @@ class NumberTable:
             cells = values.astype(float)
         return cells.to_numpy(dtype=float, na_value=np.nan)
 
-    def error(self, where: str, problem: str, remedy: str) -> Exception:
+    def error(self, where: str, problem: str, remedy: str) -> RecordingError:
         """The error to raise for a fault of this table."""
         return recording_error(self.path, where, problem, remedy)

@@ -43,8 +43,10 @@ class ModalTestKeys(Keys):
     @field_validator("direction")
     @classmethod
     def _known_direction(cls, direction: str | None) -> str | None:
-        unsigned = direction and direction.removeprefix("-" if direction.startswith("-") else "+")
-        if direction is not None and unsigned not in ("r", "theta", "x", "y", "z"):
+        names = ("r", "theta", "x", "y", "z")
+        if direction is not None and direction not in [
+            sign + name for sign in ("", "+", "-") for name in names
+        ]:
             raise ValueError("is no direction; use r, theta, x, y or z, with a sign where it is reversed")
         return direction
 
