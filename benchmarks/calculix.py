@@ -17,7 +17,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -53,18 +53,24 @@ RIGID_HZ = 1.0
 
 def input_deck(mesh: HexMesh, material: str, modes: int) -> str:
     """CalculiX input of a free body: 20-node hexahedra with full integration, lowest natural frequencies."""
+    lines = [*element_cards(mesh), *material_cards(material)]
+    lines += ["*STEP", "*FREQUENCY", f"{modes}", "*END STEP", ""]
+    return "\n".join(lines)
+
+
+def element_cards(mesh: HexMesh) -> list[str]:
+    """Nodes and elements."""
     lines = ["*NODE, NSET=ALL"]
     lines += [f"{i},{x:.12e},{y:.12e},{z:.12e}" for i, (x, y, z) in enumerate(mesh.nodes, 1)]
     lines.append("*ELEMENT, TYPE=C3D20, ELSET=STACK")
     for i, element in enumerate(mesh.elements[:, CCX_ORDER] + 1, 1):
         numbers = [str(n) for n in element]
         lines += [f"{i}," + ",".join(numbers[:10]) + ",", ",".join(numbers[10:])]
-    lines += _material_cards(material)
-    lines += ["*STEP", "*FREQUENCY", f"{modes}", "*END STEP", ""]
-    return "\n".join(lines)
+    return lines
 
 
-def _material_cards(material: str) -> list[str]:
+def material_cards(material: str) -> list[str]:
+    """Material and section of the whole body."""
     constants = CONSTANTS[material]
     cards = ["*MATERIAL, NAME=CORE", "*ELASTIC"]
     section = "*SOLID SECTION, ELSET=STACK, MATERIAL=CORE"
@@ -93,11 +99,12 @@ def read_frequencies(dat: str) -> np.ndarray:
     return frequency_hz(np.array([float(row[0]) for row in rows]))
 
 
-def run_ccx(program: str, deck: str) -> tuple[np.ndarray, float]:
-    """Frequencies and wall time (s) of CalculiX on one thread."""
-    environment = dict(
-        os.environ, OMP_NUM_THREADS="1", CCX_NPROC_EQUATION_SOLVER="1", CCX_NPROC_STIFFNESS="1"
-    )
+def run_ccx(
+    program: str, deck: str, threads: int = 1, read: Callable[[str], np.ndarray] = read_frequencies
+) -> tuple[np.ndarray, float]:
+    """Frequencies and wall time (s) of CalculiX; `read` finds them in the .dat file."""
+    names = ("OMP_NUM_THREADS", "CCX_NPROC_EQUATION_SOLVER", "CCX_NPROC_STIFFNESS")
+    environment = {**os.environ, **dict.fromkeys(names, str(threads))}
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "stack.inp").write_text(deck, encoding="ascii")
         begin = time.perf_counter()
@@ -109,7 +116,7 @@ def run_ccx(program: str, deck: str) -> tuple[np.ndarray, float]:
         dat = Path(folder) / "stack.dat"
         if done.returncode != 0 or not dat.exists() or "E I G E N" not in dat.read_text():
             sys.exit(f"ccx failed: {done.stdout.strip().splitlines()[-1:] or done.stderr}")
-        return read_frequencies(dat.read_text()), seconds
+        return read(dat.read_text()), seconds
 
 
 def ccx_version(program: str) -> str:

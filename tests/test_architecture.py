@@ -53,6 +53,11 @@ def test_every_part_has_its_place() -> None:
     assert {part(path) for path in FILES} <= set(ALLOWED)
 
 
+def test_every_folder_is_a_package() -> None:
+    """setuptools leaves a folder without __init__.py out of what it installs."""
+    assert [f for f in {path.parent for path in FILES} if not (f / "__init__.py").exists()] == []
+
+
 @pytest.mark.parametrize("path", FILES, ids=identified)
 def test_imports_only_what_lies_before(path: Path) -> None:
     mine = part(path)
