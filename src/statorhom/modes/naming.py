@@ -116,7 +116,7 @@ def _radial_name(spectrum: OrderSpectrum, z_m: npt.NDArray[np.float64], visibili
     used = np.isfinite(amplitudes)
     return ModeName(
         order,
-        node_planes(amplitudes[used], z_m[used], noise=_noise(spectrum, order)),
+        node_planes(amplitudes[used], z_m[used], noise=order_noise(spectrum, order)),
         "radial",
         share,
         visibility,
@@ -151,7 +151,7 @@ def node_planes(amplitudes: npt.ArrayLike, z_m: npt.ArrayLike, *, noise: float =
     return int(np.count_nonzero(signs[1:] != signs[:-1]))
 
 
-def _noise(spectrum: OrderSpectrum, order: int) -> float:
+def order_noise(spectrum: OrderSpectrum, order: int) -> float:
     """Amplitude that noise alone gives an order: the median one, which few real orders do not move."""
     power = np.nanmean(np.abs(spectrum.cosine) ** 2 + np.abs(spectrum.sine) ** 2, axis=0)
     others = np.delete(power, order)
