@@ -24,11 +24,8 @@ def point_sd(shape: MeasuredShape, spectrum: OrderSpectrum) -> FloatArray:
     median = order_noise(spectrum, spectrum.dominant_order) * np.sqrt(points / max(len(present), 1)) / 2
     fitted = 2 * np.count_nonzero(np.nan_to_num(np.abs(spectrum.cosine) + np.abs(spectrum.sine)))
     mean_square = float(np.nanmean(np.abs(np.where(present, shape.radial, np.nan)) ** 2))
-    residual = np.sqrt(
-        spectrum.unexplained_share * mean_square * points / max(points - fitted, 1)
-        if points > fitted
-        else 0.0
-    )
+    spare = max(points - int(fitted), 0)
+    residual = np.sqrt(spectrum.unexplained_share * mean_square * points / spare) if spare else 0.0
     return np.where(present, np.where(known, shape.sd[0], max(float(median), float(residual))), np.nan)
 
 

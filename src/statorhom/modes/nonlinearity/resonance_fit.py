@@ -1,0 +1,149 @@
+"""Least-squares fits of one resonance, linear or with a frequency that bends with the amplitude."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import least_squares
+
+from statorhom.errors import IdentificationError
+
+FloatArray = npt.NDArray[np.float64]
+ComplexArray = npt.NDArray[np.complex128]
+
+FEWEST_LINES = 10
+_ITERATIONS = 8  # each halves the error, at least, up to a bend of the loss factor's size
+_HALF_WINDOW = 2.0  # half-power widths on either side of the resonance
+
+
+@dataclass(frozen=True)
+class ResonanceFit:
+    """One resonance H = A / (1 − x + bend · |m|² + iη) + B + C (x − 1) with x = (f/f_r)².
+
+    m is the motion H − B − C (x − 1) over its largest. B and C stand for all other modes.
+
+    Attributes
+    ----------
+    frequency_hz : float
+        f_r (Hz).
+    loss_factor : float
+        η.
+    bend, bend_sd : float
+        Relative change of the stiffness from no amplitude to the largest, and its standard deviation;
+        0 in a linear fit.
+    constant : complex
+        A, in the unit of the FRF.
+    misfit : float
+        Weighted sum of squares: that of 2 · lines − parameters standard normal numbers for a true model.
+    freedom : int
+        Its degrees of freedom.
+    fitted : ndarray of complex, shape (lines,)
+        The fitted FRF.
+    rest : ndarray of complex, shape (lines,)
+        Its part B + C (x − 1).
+    """
+
+    frequency_hz: float
+    loss_factor: float
+    bend: float
+    bend_sd: float
+    constant: complex
+    misfit: float
+    freedom: int
+    fitted: ComplexArray
+    rest: ComplexArray
+
+
+def around_mode(
+    axis_hz: npt.ArrayLike, frequency_hz: float, loss_factor: float, frf: npt.ArrayLike
+) -> npt.NDArray[np.bool_]:
+    """Lines within two half-power widths of a mode with a finite value.
+
+    Raises
+    ------
+    IdentificationError
+        When fewer than ten lie there.
+    """
+    axis = np.asarray(axis_hz, dtype=float)
+    near = np.abs(axis - frequency_hz) <= _HALF_WINDOW * loss_factor * frequency_hz
+    near &= np.isfinite(np.asarray(frf, dtype=complex))
+    if near.sum() < FEWEST_LINES:
+        raise IdentificationError(
+            f"{int(near.sum())} lines around the mode at {frequency_hz:.4g} Hz: hints of non-linearity need "
+            f"{FEWEST_LINES}"
+        )
+    return near
+
+
+def fit_resonance(
+    axis_hz: FloatArray,
+    frf: ComplexArray,
+    sd: FloatArray,
+    frequency_hz: float,
+    loss_factor: float,
+    *,
+    bent: bool,
+) -> ResonanceFit:
+    """Fit one resonance to the lines around a mode.
+
+    The three complex amplitudes are linear and eliminated (variable projection), so only f_r, η and the
+    bend are searched for.
+
+    Parameters
+    ----------
+    axis_hz : ndarray, shape (lines,)
+        Frequencies (Hz).
+    frf : ndarray of complex, shape (lines,)
+        Receptance there.
+    sd : ndarray, shape (lines,)
+        Standard deviation of the complex values.
+    frequency_hz, loss_factor : float
+        Where to start.
+    bent : bool
+        Whether to fit the bend too.
+    """
+    weight = np.sqrt(2) / sd
+    offset = axis_hz / frequency_hz
+
+    def columns(p: FloatArray) -> ComplexArray:
+        return _columns(offset, loss_factor, p)
+
+    def residual(p: FloatArray) -> FloatArray:
+        matrix = columns(p) * weight[:, None]
+        rest = weight * frf - matrix @ np.linalg.lstsq(matrix, weight * frf, rcond=None)[0]
+        return np.concatenate([rest.real, rest.imag])
+
+    found = least_squares(residual, np.zeros(3 if bent else 2), x_scale=0.1, method="lm")
+    final = columns(found.x)
+    amplitudes = np.linalg.lstsq(final * weight[:, None], weight * frf, rcond=None)[0]
+    spread = np.sqrt(np.diag(np.linalg.pinv(found.jac.T @ found.jac)))
+    return ResonanceFit(
+        frequency_hz * (1 + loss_factor * float(found.x[0])),
+        loss_factor * float(np.exp(found.x[1])),
+        loss_factor * float(found.x[2]) if bent else 0.0,
+        loss_factor * float(spread[2]) if bent else 0.0,
+        complex(amplitudes[0]),
+        float(2 * found.cost),
+        2 * axis_hz.size - 6 - found.x.size,
+        final @ amplitudes,
+        final[:, 1:] @ amplitudes[1:],
+    )
+
+
+def bent_resonance(x: FloatArray, loss_factor: float, bend: float) -> ComplexArray:
+    """Motion η / (1 − x + bend · |m|² + iη) that holds itself at x = (f/f_r)², by fixed-point iteration."""
+    motion = np.divide(loss_factor, 1 - x + 1j * loss_factor, dtype=complex)
+    for _ in range(_ITERATIONS if bend else 0):
+        motion = np.divide(loss_factor, 1 - x + bend * np.abs(motion) ** 2 + 1j * loss_factor, dtype=complex)
+    return motion
+
+
+def _columns(offset: FloatArray, loss_factor: float, p: FloatArray) -> ComplexArray:
+    """Columns of A, B and C for steps p = (frequency in half-power widths, ln loss factor, bend in them)."""
+    x = (offset / (1 + loss_factor * p[0])) ** 2
+    loss = loss_factor * np.exp(p[1])
+    bent = bent_resonance(x, float(loss), loss_factor * float(p[2]) if p.size > 2 else 0.0)
+    columns: ComplexArray = np.column_stack([bent, np.ones_like(bent), (x - 1) / loss_factor + 0j])
+    return columns
