@@ -47,7 +47,7 @@ def measured_spectrum_plot(
     _bars(bars, spectrum)
     _map(amplitudes, spectrum, z_m)
     figure.suptitle(safe(title, 80), size=FONT_PT + 0.5, color=INK, x=0.01, ha="left", weight="bold")
-    bars.set_title(_wrapped(safe(statement, 240)), size=FONT_PT - 1.5, color=FAINT_INK, loc="left")
+    bars.set_title(_wrapped(statement), size=FONT_PT - 1.5, color=FAINT_INK, loc="left")
     return figure
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from statorhom.report.figures.canvas import FAINT, FONT_PT, INK, MEASURED, SIMULATED, new_figure, safe, tidy
+from statorhom.report.figures.canvas import FAINT, FONT_PT, INK, MEASURED, SIMULATED, new_figure, tidy
 
 WIDTH_MM, _HEIGHT_MM = 160.0, 66.0
 
@@ -52,7 +52,7 @@ def pole_shift_plot(
     left.set_xlim(-8, 368)
     left.set_xticks(range(0, 361, 60))
     right.set_xlabel("squared amplitude at the point in 1/kg")
-    figure.suptitle(safe(note, 110), size=FONT_PT, color=INK, x=0.01, ha="left")
+    figure.suptitle(note, size=FONT_PT, color=INK, x=0.01, ha="left")
     figure.legend(
         *left.get_legend_handles_labels(), fontsize=FONT_PT - 0.5, frameon=False, labelcolor=INK, ncols=2,
         loc="outside lower center",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator
+from typing import Any, cast
 
 import matplotlib as mpl
 import numpy as np
@@ -134,9 +135,11 @@ class _Drawing:
     def _move(self, phase: float) -> None:
         rings, places = self.motion.rings(phase), self.motion.places(phase)
         flat, dots = self._projected(rings), self._projected(places)
-        self.rings.set_segments(np.stack([flat[:, :-1], flat[:, 1:]], axis=2).reshape(-1, 2, 2))
+        self.rings.set_segments(list(np.stack([flat[:, :-1], flat[:, 1:]], axis=2).reshape(-1, 2, 2)))
         colour = at_phase(self.motion.curves[:, :-1], phase).ravel() / self.largest
-        self.rings.set_color(mpl.colormaps[DIVERGING](0.5 + 0.48 * np.clip(np.nan_to_num(colour), -1, 1)))
+        self.rings.set_color(
+            cast(Any, mpl.colormaps[DIVERGING](0.5 + 0.48 * np.clip(np.nan_to_num(colour), -1, 1)))
+        )
         self.edges.set_segments(list(flat))
         self.meridians.set_segments([line[np.isfinite(line).all(axis=1)] for line in dots.transpose(1, 0, 2)])
         self.dots.set_data(*dots.reshape(-1, 2).T)
