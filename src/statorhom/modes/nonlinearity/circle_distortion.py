@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +12,7 @@ from scipy.stats import chi2
 from scipy.stats import f as fisher
 
 from statorhom.modes.nonlinearity.frf_noise import line_noise
-from statorhom.modes.nonlinearity.resonance_fit import around_mode
+from statorhom.modes.nonlinearity.resonance_fit import around_mode, fit_resonance
 
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
@@ -53,12 +54,13 @@ def circle_distortion(
     frequency_hz: float,
     loss_factor: float,
     sd: npt.ArrayLike | None = None,
+    neighbours: Sequence[tuple[float, float]] = (),
 ) -> CircleDistortion:
     """Fit a circle, drifting with frequency, to the lines around a mode by orthogonal distance regression.
 
     Parameters
     ----------
-    axis_hz, receptance, frequency_hz, loss_factor, sd
+    axis_hz, receptance, frequency_hz, loss_factor, sd, neighbours
         As in `flank_asymmetry`.
 
     Raises
@@ -70,7 +72,10 @@ def circle_distortion(
     axis = np.asarray(axis_hz, dtype=float)[near]
     frf = np.asarray(receptance, dtype=complex)[near]
     noise, noise_freedom = line_noise(frf)
-    spread = np.full(axis.size, noise) if sd is None else np.asarray(sd, dtype=float)[near]
+    spread = noise if sd is None else np.asarray(sd, dtype=float)[near]
+    if neighbours:
+        fit = fit_resonance(axis, frf, spread, frequency_hz, loss_factor, bent=False, neighbours=neighbours)
+        frf = frf - fit.rest
     offset = (axis - frequency_hz) / (loss_factor * frequency_hz)
     scale = float(np.ptp(np.abs(frf)))
     points = np.divide(frf, scale, dtype=complex)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,12 +52,13 @@ def flank_asymmetry(
     frequency_hz: float,
     loss_factor: float,
     sd: npt.ArrayLike | None = None,
+    neighbours: Sequence[tuple[float, float]] = (),
 ) -> FlankAsymmetry:
     """Compare the flanks of a mode's peak.
 
     A linear resonance and one whose stiffness changes with the squared amplitude are fitted to the same
-    lines; an F-test says whether the second explains significantly more. Neighbouring modes enter both
-    as a constant and a slope.
+    lines; an F-test says whether the second explains significantly more. Far modes enter both as a
+    constant and a slope.
 
     Parameters
     ----------
@@ -68,6 +70,9 @@ def flank_asymmetry(
         The mode.
     sd : array_like, shape (lines,), optional
         Standard deviation of the complex receptance; estimated from the lines without it.
+    neighbours : sequence of (frequency_hz, loss_factor)
+        The other modes. Two modes within a bandwidth look like one bent peak: a doublet's other mode must be
+        named here, and the hint then rests on what the two cannot explain.
 
     Raises
     ------
@@ -77,9 +82,10 @@ def flank_asymmetry(
     near = around_mode(axis_hz, frequency_hz, loss_factor, receptance)
     axis = np.asarray(axis_hz, dtype=float)[near]
     frf = np.asarray(receptance, dtype=complex)[near]
-    spread = np.full(axis.size, line_noise(frf)[0]) if sd is None else np.asarray(sd, dtype=float)[near]
+    spread = line_noise(frf)[0] if sd is None else np.asarray(sd, dtype=float)[near]
     linear, bent = (
-        fit_resonance(axis, frf, spread, frequency_hz, loss_factor, bent=choice) for choice in (False, True)
+        fit_resonance(axis, frf, spread, frequency_hz, loss_factor, bent=choice, neighbours=neighbours)
+        for choice in (False, True)
     )
     # what even the bent curve leaves widens the noise, never narrows it below what was stated
     noise = bent.misfit / bent.freedom

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,14 +16,16 @@ ComplexArray = npt.NDArray[np.complex128]
 
 FEWEST_LINES = 10
 _ITERATIONS = 8  # each halves the error, at least, up to a bend of the loss factor's size
+_NEAR = 15.0  # half-power widths: the terms of modes farther away are as good as straight lines
 _HALF_WINDOW = 2.0  # half-power widths on either side of the resonance
 
 
 @dataclass(frozen=True)
 class ResonanceFit:
-    """One resonance H = A / (1 − x + bend · |m|² + iη) + B + C (x − 1) with x = (f/f_r)².
+    """One resonance H = A / (1 − x + bend · |m|² + iη) + rest with x = (f/f_r)².
 
-    m is the motion H − B − C (x − 1) over its largest. B and C stand for all other modes.
+    m is the first term over its largest. The rest is B + C (x − 1), which stands for far modes, and a term
+    like the first, without bend, for every near one.
 
     Attributes
     ----------
@@ -42,7 +45,7 @@ class ResonanceFit:
     fitted : ndarray of complex, shape (lines,)
         The fitted FRF.
     rest : ndarray of complex, shape (lines,)
-        Its part B + C (x − 1).
+        Its part that belongs to other modes.
     """
 
     frequency_hz: float
@@ -85,11 +88,12 @@ def fit_resonance(
     loss_factor: float,
     *,
     bent: bool,
+    neighbours: Sequence[tuple[float, float]] = (),
 ) -> ResonanceFit:
     """Fit one resonance to the lines around a mode.
 
-    The three complex amplitudes are linear and eliminated (variable projection), so only f_r, η and the
-    bend are searched for.
+    All complex amplitudes are linear and eliminated (variable projection), so only f_r, η and the bend are
+    searched for.
 
     Parameters
     ----------
@@ -103,12 +107,18 @@ def fit_resonance(
         Where to start.
     bent : bool
         Whether to fit the bend too.
+    neighbours : sequence of (frequency_hz, loss_factor)
+        Other modes; those near this one, such as a doublet's other mode, are fitted in amplitude.
     """
     weight = np.sqrt(2) / sd
     offset = axis_hz / frequency_hz
 
+    reach = _NEAR * loss_factor * frequency_hz
+    others = [(f, eta) for f, eta in neighbours if abs(f - frequency_hz) <= reach]
+    fixed = [eta / (1 - (axis_hz / f) ** 2 + 1j * eta) for f, eta in others]
+
     def columns(p: FloatArray) -> ComplexArray:
-        return _columns(offset, loss_factor, p)
+        return np.column_stack([_columns(offset, loss_factor, p), *fixed])
 
     def residual(p: FloatArray) -> FloatArray:
         matrix = columns(p) * weight[:, None]
@@ -126,7 +136,7 @@ def fit_resonance(
         loss_factor * float(spread[2]) if bent else 0.0,
         complex(amplitudes[0]),
         float(2 * found.cost),
-        2 * axis_hz.size - 6 - found.x.size,
+        2 * axis_hz.size - 6 - 2 * len(fixed) - found.x.size,
         final @ amplitudes,
         final[:, 1:] @ amplitudes[1:],
     )
