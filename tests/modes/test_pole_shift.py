@@ -49,13 +49,13 @@ def test_no_mass_gives_no_hint_and_intervals_cover():
     f, phi = structure()
     sd = np.full((SETUPS, MODES), 0.2)
     hints, covered = 0, []
-    for seed in range(30):
+    for seed in range(20):
         noise = sd * np.random.default_rng(seed).standard_normal(sd.shape)
         none = pole_shift_trend(f + noise, sd, phi).joint
         hints += (none.p_shift < 0.01) + (none.p_mass < 0.01)
         some = pole_shift_trend(loaded(f, phi, 0.006) + noise, sd, phi).joint
         covered.append(some.ci90_kg[0] < 0.006 < some.ci90_kg[1])
-    assert hints <= 3  # of 60
+    assert hints <= 3  # of 40
     assert 0.78 <= np.mean(covered) <= 0.99
 
 
@@ -93,3 +93,16 @@ def test_sizes_must_fit():
         pole_shift_trend(np.ones((3, 2)), np.ones((3, 2)), np.ones((4, 2)))
     with pytest.raises(IdentificationError, match="three set-ups"):
         pole_shift_trend(np.ones((2, 2)), np.ones((2, 2)), np.ones((2, 2)))
+
+
+def test_doublet_of_a_perfect_ring_as_one_mode():
+    # the sensor turns the doublet, so its angle does not matter, but its plane does
+    z = np.repeat([-1.0, -0.4, 0.4, 1.0], SETUPS)
+    around = np.tile(ANGLES, 4)
+    both = np.sqrt(6 / 3.0) * z[:, None] * np.column_stack([np.cos(2 * around), np.sin(2 * around)])
+    bare = np.array([1000.0, 1000.0 * (1 + 1e-6)])
+    moving = loaded(bare, both, 0.005)[:, :1]
+    assert np.ptp(moving[z == 1.0]) < 1e-2 < np.ptp(moving)
+    found = pole_shift_trend(moving, np.full(moving.shape, 0.01), both[:, None, :])
+    assert found.joint.mass_kg == pytest.approx(0.005, rel=0.02)
+    assert np.isnan(found.mirror_kg).all()

@@ -16,7 +16,7 @@ FloatArray = npt.NDArray[np.float64]
 
 _WITHIN_90 = float(chi2.ppf(0.9, 1))
 _LEAST_SHIFT = 1e-5  # of the largest mass
-_KNOTS, _SEARCHED = 50, 2000
+_KNOTS, _SEARCHED = 50, 1000
 _CLOSE = 0.05  # of the frequency: modes that a sensor can turn into each other
 _BARE_ITERATIONS = 8
 
@@ -74,6 +74,10 @@ class PoleShiftTrend:
     predicted: FloatArray
     observed: FloatArray
 
+    def __post_init__(self) -> None:
+        for array in (self.mirror_kg, self.predicted, self.observed):
+            array.setflags(write=False)
+
 
 def pole_shift_trend(
     frequency_hz: npt.ArrayLike, frequency_sd_hz: npt.ArrayLike, amplitude: npt.ArrayLike
@@ -93,7 +97,9 @@ def pole_shift_trend(
     amplitude : array_like, shape (set-ups, modes) or (set-ups, modes, directions)
         Mass-normalised amplitudes (1/√kg), real, at each set-up's place. A sensor's mass moves in all
         directions: where tangential or axial motion is left out, the mass comes out wrong by their share
-        (too small by about 1/r² for radial motion alone of a thin ring).
+        (too small by about 1/r² for radial motion alone of a thin ring). Of a doublet that the sensor splits
+        more than it is split itself, every set-up shows one moving pole: enter it as one mode, with the
+        motions of both its shapes as directions.
 
     Raises
     ------

@@ -47,6 +47,10 @@ class CircleDistortion:
     angle_rad: FloatArray
     distance: FloatArray
 
+    def __post_init__(self) -> None:
+        self.angle_rad.setflags(write=False)
+        self.distance.setflags(write=False)
+
 
 def circle_distortion(
     axis_hz: npt.ArrayLike,
