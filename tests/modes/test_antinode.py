@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from measured_points import Z_M, complex_noise, cylinder, radial_values
 
+from measured_points import Z_M, complex_noise, cylinder, radial_values
 from statorhom.errors import IdentificationError
 from statorhom.modes.amplitude_noise import amplitude_sd
 from statorhom.modes.antinode import antinode

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
-from measured_points import Z_M, complex_noise, cylinder, radial_values
 
+from measured_points import Z_M, complex_noise, cylinder, radial_values
 from statorhom.modes.amplitude_noise import amplitude_sd, point_sd
 from statorhom.modes.measured_name import name_measured
 from statorhom.modes.measured_shape import measured_shapes

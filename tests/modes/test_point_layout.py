@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
-from measured_points import Z_M, cylinder, dof
 
+from measured_points import Z_M, cylinder, dof
 from statorhom.errors import IdentificationError
 from statorhom.modes.point_layout import lay_out
 from statorhom.recordings.dof import Dof

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
-from measured_points import complex_noise, cylinder, radial_values
 
+from measured_points import complex_noise, cylinder, radial_values
 from statorhom.errors import IdentificationError
 from statorhom.modes.measured_shape import measured_shapes
 from statorhom.modes.point_layout import lay_out

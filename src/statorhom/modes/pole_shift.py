@@ -16,7 +16,7 @@ FloatArray = npt.NDArray[np.float64]
 
 _WITHIN_90 = float(chi2.ppf(0.9, 1))
 _LEAST_SHIFT = 1e-5  # of the largest mass
-_KNOTS, _SEARCHED = 50, 1000
+_KNOTS, _SEARCHED, _REFINED = 50, 800, 121
 _CLOSE = 0.05  # of the frequency: modes that a sensor can turn into each other
 _BARE_ITERATIONS = 8
 
@@ -125,9 +125,12 @@ def pole_shift_trend(
     table, bare = _mass_table(mean, phi, weight)
     # close doublets make several masses fit: the whole range is searched
     masses = np.array([0.0, *np.geomspace(_LEAST_SHIFT, 1.0, _SEARCHED) * table.x[-1]])
+    every = range(f.shape[1])
+    rough = _explain(observed, weight, masses, table(masses), every).mass_kg
+    masses = np.unique([*masses, *np.linspace(0.97, 1.03, _REFINED) * min(rough, table.x[-1] / 1.03)])
     shifts = table(masses)
-    joint = _explain(observed, weight, masses, shifts, range(f.shape[1]))
-    single = tuple(_explain(observed, weight, masses, shifts, [mode]) for mode in range(f.shape[1]))
+    joint = _explain(observed, weight, masses, shifts, every)
+    single = tuple(_explain(observed, weight, masses, shifts, [mode]) for mode in every)
     predicted, mirror = table(joint.mass_kg), _mirror(bare(joint.mass_kg), phi)
     return PoleShiftTrend(joint, single, mirror, predicted, np.where(present, observed, np.nan))
 

@@ -9,6 +9,7 @@ from statorhom.errors import IdentificationError
 from statorhom.modes.nonlinearity.circle_distortion import circle_distortion
 from statorhom.modes.nonlinearity.flank_asymmetry import flank_asymmetry
 from statorhom.modes.nonlinearity.frf_noise import line_noise
+from statorhom.modes.nonlinearity.mode_lines import lines_around
 from statorhom.modes.nonlinearity.resonance_fit import fit_resonance
 
 MASS, F0, ETA = 1.0, 1000.0, 0.01
@@ -118,8 +119,8 @@ def test_noise_is_found_from_the_lines(floor, relative):
 def test_standard_deviation_of_the_bend_is_what_repeats_show():
     frf = linear()
     sd = np.full(AXIS.size, 0.01 * np.abs(frf).max())
-    near = np.abs(AXIS - F0) <= 20
-    fits = [fit_resonance(AXIS[near], noisy(frf, s)[near], sd[near], F0, ETA, bent=True) for s in range(60)]
+    lines = [lines_around(AXIS, noisy(frf, s), F0, ETA, sd) for s in range(60)]
+    fits = [fit_resonance(one, F0, ETA, bent=True) for one in lines]
     assert np.std([fit.bend / fit.bend_sd for fit in fits]) == pytest.approx(1.0, abs=0.3)
     assert np.mean([fit.misfit / fit.freedom for fit in fits]) == pytest.approx(1.0, abs=0.1)
     assert np.mean([fit.loss_factor for fit in fits]) == pytest.approx(ETA, rel=0.02)

@@ -11,8 +11,8 @@ from scipy.optimize import least_squares
 from scipy.stats import chi2
 from scipy.stats import f as fisher
 
-from statorhom.modes.nonlinearity.frf_noise import line_noise
-from statorhom.modes.nonlinearity.resonance_fit import around_mode, fit_resonance
+from statorhom.modes.nonlinearity.mode_lines import lines_around
+from statorhom.modes.nonlinearity.resonance_fit import fit_resonance
 
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
@@ -72,14 +72,10 @@ def circle_distortion(
     IdentificationError
         With fewer than ten lines around the mode.
     """
-    near = around_mode(axis_hz, frequency_hz, loss_factor, receptance)
-    axis = np.asarray(axis_hz, dtype=float)[near]
-    frf = np.asarray(receptance, dtype=complex)[near]
-    noise, noise_freedom = line_noise(frf)
-    spread = noise if sd is None else np.asarray(sd, dtype=float)[near]
+    lines = lines_around(axis_hz, receptance, frequency_hz, loss_factor, sd)
+    axis, frf, spread = lines.axis_hz, lines.frf, lines.sd
     if neighbours:
-        fit = fit_resonance(axis, frf, spread, frequency_hz, loss_factor, bent=False, neighbours=neighbours)
-        frf = frf - fit.rest
+        frf = frf - fit_resonance(lines, frequency_hz, loss_factor, bent=False, neighbours=neighbours).rest
     offset = (axis - frequency_hz) / (loss_factor * frequency_hz)
     scale = float(np.ptp(np.abs(frf)))
     points = np.divide(frf, scale, dtype=complex)
@@ -87,7 +83,11 @@ def circle_distortion(
     found = least_squares(_distances, _algebraic_circle(points), args=(points, offset, weight), method="lm")
     freedom = axis.size - found.x.size
     misfit = float(2 * found.cost)
-    p = chi2.sf(misfit, freedom) if sd is not None else fisher.sf(misfit / freedom, freedom, noise_freedom)
+    p = (
+        chi2.sf(misfit, freedom)
+        if sd is not None
+        else fisher.sf(misfit / freedom, freedom, lines.noise_freedom)
+    )
     centre, radius = scale * complex(found.x[0], found.x[1]), scale * float(abs(found.x[2]))
     excess = max(misfit - freedom, 0.0) / max(float(np.sum(weight**2)), np.finfo(float).tiny)
     drift = scale * complex(found.x[3], found.x[4])

@@ -9,10 +9,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy.stats import f as fisher
 
-from statorhom.modes.nonlinearity.frf_noise import line_noise
+from statorhom.modes.nonlinearity.mode_lines import lines_around
 from statorhom.modes.nonlinearity.resonance_fit import (
     ResonanceFit,
-    around_mode,
     bent_resonance,
     fit_resonance,
 )
@@ -79,12 +78,9 @@ def flank_asymmetry(
     IdentificationError
         With fewer than ten lines around the mode.
     """
-    near = around_mode(axis_hz, frequency_hz, loss_factor, receptance)
-    axis = np.asarray(axis_hz, dtype=float)[near]
-    frf = np.asarray(receptance, dtype=complex)[near]
-    spread = line_noise(frf)[0] if sd is None else np.asarray(sd, dtype=float)[near]
+    lines = lines_around(axis_hz, receptance, frequency_hz, loss_factor, sd)
     linear, bent = (
-        fit_resonance(axis, frf, spread, frequency_hz, loss_factor, bent=choice, neighbours=neighbours)
+        fit_resonance(lines, frequency_hz, loss_factor, bent=choice, neighbours=neighbours)
         for choice in (False, True)
     )
     # what even the bent curve leaves widens the noise, never narrows it below what was stated

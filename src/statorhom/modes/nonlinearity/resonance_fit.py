@@ -9,15 +9,13 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import least_squares
 
-from statorhom.errors import IdentificationError
+from statorhom.modes.nonlinearity.mode_lines import ModeLines
 
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
-FEWEST_LINES = 10
 _ITERATIONS = 8  # each halves the error, at least, up to a bend of the loss factor's size
 _NEAR = 15.0  # half-power widths: the terms of modes farther away are as good as straight lines
-_HALF_WINDOW = 2.0  # half-power widths on either side of the resonance
 
 
 @dataclass(frozen=True)
@@ -59,31 +57,8 @@ class ResonanceFit:
     rest: ComplexArray
 
 
-def around_mode(
-    axis_hz: npt.ArrayLike, frequency_hz: float, loss_factor: float, frf: npt.ArrayLike
-) -> npt.NDArray[np.bool_]:
-    """Lines within two half-power widths of a mode with a finite value.
-
-    Raises
-    ------
-    IdentificationError
-        When fewer than ten lie there.
-    """
-    axis = np.asarray(axis_hz, dtype=float)
-    near = np.abs(axis - frequency_hz) <= _HALF_WINDOW * loss_factor * frequency_hz
-    near &= np.isfinite(np.asarray(frf, dtype=complex))
-    if near.sum() < FEWEST_LINES:
-        raise IdentificationError(
-            f"{int(near.sum())} lines around the mode at {frequency_hz:.4g} Hz: hints of non-linearity need "
-            f"{FEWEST_LINES}"
-        )
-    return near
-
-
 def fit_resonance(
-    axis_hz: FloatArray,
-    frf: ComplexArray,
-    sd: FloatArray,
+    lines: ModeLines,
     frequency_hz: float,
     loss_factor: float,
     *,
@@ -97,12 +72,8 @@ def fit_resonance(
 
     Parameters
     ----------
-    axis_hz : ndarray, shape (lines,)
-        Frequencies (Hz).
-    frf : ndarray of complex, shape (lines,)
-        Receptance there.
-    sd : ndarray, shape (lines,)
-        Standard deviation of the complex values.
+    lines : ModeLines
+        Lines around the mode.
     frequency_hz, loss_factor : float
         Where to start.
     bent : bool
@@ -110,7 +81,7 @@ def fit_resonance(
     neighbours : sequence of (frequency_hz, loss_factor)
         Other modes; those near this one, such as a doublet's other mode, are fitted in amplitude.
     """
-    weight = np.sqrt(2) / sd
+    axis_hz, frf, weight = lines.axis_hz, lines.frf, np.sqrt(2) / lines.sd
     offset = axis_hz / frequency_hz
 
     reach = _NEAR * loss_factor * frequency_hz
