@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import scipy.sparse as sp
 from scipy.linalg import eigh
-from scipy.sparse.linalg import LinearOperator, eigsh, splu
+from scipy.sparse.linalg import LinearOperator, SuperLU, eigsh, splu
 from threadpoolctl import threadpool_limits
 
 from statorhom.errors import SolverError
@@ -16,9 +16,17 @@ from statorhom.errors import SolverError
 SHIFT = 0.05
 
 Solve = Callable[[np.ndarray], np.ndarray]
+# of a sparse symmetric positive definite matrix
+Factorize = Callable[[sp.csr_array], Solve]
 
 
 def factorize(matrix: sp.csr_array) -> Solve:
+    """What solves with a symmetric positive definite matrix; see `symmetric_lu`."""
+    solve: Solve = symmetric_lu(matrix).solve
+    return solve
+
+
+def symmetric_lu(matrix: sp.csr_array) -> SuperLU:
     """Sparse LU of a symmetric positive definite matrix (SuperLU without pivoting, minimum degree of A + Aᵀ).
 
     Raises
@@ -27,7 +35,7 @@ def factorize(matrix: sp.csr_array) -> Solve:
         If the matrix is singular or has entries that are not numbers.
     """
     try:
-        lu = splu(
+        return splu(
             sp.csc_matrix(matrix),
             permc_spec="MMD_AT_PLUS_A",
             diag_pivot_thresh=0.0,
@@ -37,11 +45,15 @@ def factorize(matrix: sp.csr_array) -> Solve:
         raise SolverError(
             f"the stiffness matrix cannot be factorized ({error}); check the materials"
         ) from None
-    return lu.solve
 
 
 def modes_below(
-    K: sp.csr_array, M: sp.csr_array, highest_hz: float, expected: int = 8, most: int | None = None
+    K: sp.csr_array,
+    M: sp.csr_array,
+    highest_hz: float,
+    expected: int = 8,
+    most: int | None = None,
+    back_end: Factorize = factorize,
 ) -> tuple[np.ndarray, np.ndarray]:
     """All eigenpairs of K x = λ M x up to a frequency, rigid-body modes included.
 
@@ -51,6 +63,7 @@ def modes_below(
     highest_hz : upper end of the band.
     expected : how many modes to ask for first; doubled until the band is covered.
     most : stop at this many modes although the band may hold more; None for all.
+    back_end : factorizes the shifted matrix.
 
     Returns
     -------
@@ -65,7 +78,7 @@ def modes_below(
     top = (2 * np.pi * highest_hz) ** 2
     sigma = -SHIFT * top
     with threadpool_limits(limits=1, user_api="blas"):
-        solve = factorize(sp.csr_array(K - sigma * M))
+        solve = back_end(sp.csr_array(K - sigma * M))
         count = expected if most is None else min(expected, most)
         while True:
             values, vectors = _lowest(K, M, sigma, solve, count)
