@@ -41,14 +41,15 @@ def cholmod(matrix: sp.csr_array) -> Solve:
     lower = sp.tril(matrix, format="coo")
     sparse = kvxopt.spmatrix(kvxopt.matrix(lower.data), lower.row, lower.col, lower.shape)
     factor = kvxopt.cholmod.symbolic(sparse)
-    try:
-        kvxopt.cholmod.numeric(sparse, factor)
-    except ArithmeticError:
-        raise not_definite("cholmod") from None
 
     def solve(right: np.ndarray) -> np.ndarray:
         x = kvxopt.matrix(np.asarray(right, dtype=float))
         kvxopt.cholmod.solve(factor, x)
         return np.array(x).reshape(right.shape)
 
-    return checked("cholmod", matrix, solve)
+    try:
+        kvxopt.cholmod.numeric(sparse, factor)
+        # a factorization that stopped half-way is told by the first solve
+        return checked("cholmod", matrix, solve)
+    except ArithmeticError:
+        raise not_definite("cholmod") from None

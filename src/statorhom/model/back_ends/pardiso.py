@@ -6,6 +6,7 @@ pypardiso's own `spsolve` assumes unsymmetric matrices and hands the whole matri
 from __future__ import annotations
 
 import weakref
+from copy import copy
 from types import ModuleType
 from typing import Any
 
@@ -51,16 +52,14 @@ def pardiso(matrix: sp.csr_array) -> Solve:
     """
     pypardiso = library()
     n = matrix.shape[0]
-    solver = pypardiso.PyPardisoSolver(mtype=POSITIVE_DEFINITE)
-    for number, value in PARAMETERS.items():
-        solver.set_iparm(number, value)
+    solver = _solver(pypardiso)
     upper = sp.csr_matrix(sp.triu(matrix, format="csr"))
     upper.sort_indices()
     # phases after the factorization need the matrix's size alone
     blank = sp.csr_matrix((n, n))
     try:
         _call(solver, FACTORIZE, upper, np.zeros(n))
-    except pypardiso.PyPardisoError as error:
+    except pypardiso.pardiso_wrapper.PyPardisoError as error:
         _call(solver, RELEASE, blank, np.zeros(n))
         if error.value == NOT_DEFINITE:
             raise not_definite("pardiso") from None
@@ -74,6 +73,16 @@ def pardiso(matrix: sp.csr_array) -> Solve:
     # MKL keeps the factors until it is told
     weakref.finalize(solve, _call, solver, RELEASE, blank, np.zeros(n))
     return checked("pardiso", matrix, solve)
+
+
+def _solver(pypardiso: ModuleType) -> Any:
+    """A solver of its own memory; a new one would search the disk for MKL, which takes a second."""
+    solver = copy(pypardiso.ps)
+    solver.pt, solver.iparm = np.zeros_like(solver.pt), np.zeros_like(solver.iparm)
+    solver.set_matrix_type(POSITIVE_DEFINITE)
+    for number, value in PARAMETERS.items():
+        solver.set_iparm(number, value)
+    return solver
 
 
 def _call(solver: Any, phase: int, matrix: sp.csr_matrix, right: np.ndarray) -> np.ndarray:
