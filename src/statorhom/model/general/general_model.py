@@ -26,30 +26,10 @@ from statorhom.model.assembly import (
     mass_blocks,
 )
 from statorhom.model.back_ends.choice import best_available
-from statorhom.model.eigen import Factorize, frequency_hz, modes_below
+from statorhom.model.eigen import Factorize
 from statorhom.model.element import gauss_table
 from statorhom.model.frames import Frame, cylindrical
-
-EXPECTED = 32  # modes asked for first: a restart costs a whole body more than a few modes too many
-
-
-@dataclass(frozen=True)
-class GeneralModes:
-    """All modes of a band, rigid bodies included, sorted by frequency.
-
-    Parameters
-    ----------
-    eigenvalues : (k,) λ = ω² (rad²/s²); rigid bodies' are zero but for rounding.
-    vectors : (3 n, k) displacements in the frame's components, mass-normalised.
-    """
-
-    eigenvalues: np.ndarray
-    vectors: np.ndarray
-
-    @property
-    def frequencies_hz(self) -> np.ndarray:
-        """(k,) natural frequencies."""
-        return frequency_hz(self.eigenvalues)
+from statorhom.model.general.band import EXPECTED, GeneralModes, band_modes
 
 
 @dataclass(frozen=True)
@@ -144,7 +124,7 @@ class GeneralModel:
             If K + σ M is not positive definite, or if the iteration does not converge.
         """
         K, M = self.stiffness_matrix(materials, element_scale), self.mass_matrix(materials)
-        return GeneralModes(*modes_below(K, M, highest_hz, expected, back_end=back_end or best_available()))
+        return band_modes(K, M, highest_hz, back_end or best_available(), expected)
 
     def _shared_blocks(
         self, matrices: Callable[[ElementGeometry, str], np.ndarray]
