@@ -105,9 +105,3 @@ def test_isotropic_bodies_do_not_know_their_frame():
     _, cyl = _modes(SIZE, (3, 2, 1), STEEL, 4e4, cylindrical)
     assert len(cart.frequencies_hz) > 12
     np.testing.assert_allclose(cyl.frequencies_hz[6:], cart.frequencies_hz[6:], rtol=1e-9)
-
-
-def test_along_the_x_axis_both_frames_are_the_same():
-    x = np.array([[1.0, 0.0, 2.0], [3.0, 0.0, -1.0]])
-    np.testing.assert_array_equal(cartesian(x), cylindrical(x))
-    assert cylindrical(np.array([0.0, 2.0, 5.0])) == pytest.approx(np.pi / 2)
