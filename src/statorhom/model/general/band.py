@@ -11,7 +11,10 @@ from threadpoolctl import threadpool_limits
 from statorhom.model.eigen import SHIFT, Factorize, Solve, frequency_hz, modes_below
 
 EXPECTED = 32  # modes asked for first: a restart costs a whole body more than a few modes too many
-CHECKED = 2  # modes asked for when the others are known
+CHECKED = 5  # modes asked for when the others are known
+ROUGH = (
+    1e-3  # tolerance that tells whether there is any; a quarter of the solves that all its digits would take
+)
 
 
 @dataclass(frozen=True)
@@ -67,11 +70,11 @@ def with_missed(
     With the known modes projected out it is the next to be found. `solve` is that of the `shifted` matrix.
     """
     n = K.shape[0]
-    while len(modes.eigenvalues) < n - 10 * CHECKED:  # a body that small was solved whole
+    while len(modes.eigenvalues) < n - 4 * CHECKED:  # a body that small was solved whole
         rest = _without(modes.vectors, M, solve)
-        found, more = modes_below(K, M, highest_hz, CHECKED, back_end=rest)
-        if len(found) == 0:
+        if len(modes_below(K, M, highest_hz, CHECKED, back_end=rest, tolerance=ROUGH)[0]) == 0:
             break
+        found, more = modes_below(K, M, highest_hz, CHECKED, back_end=rest)
         values = np.r_[modes.eigenvalues, found]
         order = np.argsort(values)
         modes = GeneralModes(values[order], np.hstack([modes.vectors, more])[:, order])
