@@ -4,7 +4,7 @@ Each measurement is a process of its own, so that its peak memory is the back en
 matrix. Times are the processor's, which others may be using. The figures are medians over rounds, in each of which
 all back ends take their turn.
 
-    python benchmarks/back_ends.py
+    python benchmarks/back_ends.py          (Linux)
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import resource
 import statistics
 import subprocess
 import sys
@@ -60,11 +59,12 @@ def measure(name: str, file: Path) -> dict[str, float]:
     right = np.random.default_rng(1).standard_normal(matrix.shape[0])
     back_end = BACK_ENDS[name]
     back_end(sp.csr_array(sp.eye_array(8, format="csr")))  # loads the library
-    before = _peak_mib()
+    Path("/proc/self/clear_refs").write_text("5", encoding="ascii")  # resets the peak
+    before = _memory_mib("VmRSS")
     begin = time.process_time()
     solve = back_end(matrix)
     factorized = time.process_time()
-    memory = _peak_mib() - before
+    memory = _memory_mib("VmHWM") - before
     for _ in range(SOLVES):
         solve(right)
     solved = time.process_time()
@@ -77,8 +77,11 @@ def measure(name: str, file: Path) -> dict[str, float]:
     }
 
 
-def _peak_mib() -> float:
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+def _memory_mib(key: str) -> float:
+    """VmRSS now or VmHWM, the peak since it was reset; getrusage's would be the parent's where that was larger."""
+    status = Path("/proc/self/status").read_text(encoding="ascii")
+    found = next(line for line in status.splitlines() if line.startswith(key))
+    return int(found.split()[1]) / 1024
 
 
 def in_process(name: str, file: Path) -> dict[str, float]:

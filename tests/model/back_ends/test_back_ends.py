@@ -1,7 +1,9 @@
 import builtins
 import ctypes
 import gc
+import json
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,6 +20,7 @@ from statorhom.model.back_ends.superlu import superlu
 from statorhom.model.frames import cartesian
 from statorhom.model.general.general_model import general_model
 
+FIGURES = Path(__file__).resolve().parents[3] / "benchmarks" / "figures" / "back_ends.json"
 LIBRARIES = {"cholmod": (cholmod, "kvxopt"), "pardiso": (pardiso, "pypardiso")}
 MATERIALS = {"box": Material(ORTHOTROPIC.hooke(), 7810.5)}
 
@@ -143,6 +146,13 @@ def test_a_missing_library_names_the_extra(monkeypatch, pair, name):
     _hide(monkeypatch, LIBRARIES[name][1])
     with pytest.raises(MissingDependencyError, match=r"^\w+: .* pip install 'statorhom\[general\]'$"):
         BACK_ENDS[name](pair[0])
+
+
+def test_the_order_is_that_of_the_measurement():
+    largest = json.loads(FIGURES.read_text(encoding="utf-8"))["meshes"][-1]
+    assert largest["degrees_of_freedom"] > 140_000
+    seconds = {name: figures["band_s"] for name, figures in largest["back_ends"].items()}
+    assert sorted(seconds, key=seconds.__getitem__) == ["pardiso", "cholmod", "superlu"]
 
 
 def test_what_is_installed_is_chosen(monkeypatch):
