@@ -148,11 +148,17 @@ def test_a_missing_library_names_the_extra(monkeypatch, pair, name):
         BACK_ENDS[name](pair[0])
 
 
-def test_the_order_is_that_of_the_measurement():
+def test_the_choice_is_that_of_the_measurement(monkeypatch):
+    for module, _ in LIBRARIES.values():
+        monkeypatch.setattr(module, "library", lambda: None)
     largest = json.loads(FIGURES.read_text(encoding="utf-8"))["meshes"][-1]
     assert largest["degrees_of_freedom"] > 140_000
     seconds = {name: figures["band_s"] for name, figures in largest["back_ends"].items()}
-    assert sorted(seconds, key=seconds.__getitem__) == ["pardiso", "cholmod", "superlu"]
+    assert set(seconds) == set(BACK_ENDS)
+    # CHOLMOD and PARDISO differ by less than a busy machine's noise
+    chosen = next(name for name, back_end in BACK_ENDS.items() if back_end is best_available())
+    assert seconds[chosen] < 1.1 * min(seconds.values())
+    assert max(seconds, key=seconds.__getitem__) == "superlu"
 
 
 def test_what_is_installed_is_chosen(monkeypatch):
@@ -160,12 +166,12 @@ def test_what_is_installed_is_chosen(monkeypatch):
     assert best_available() is superlu
 
 
-def test_the_faster_library_comes_first(monkeypatch):
+def test_the_better_library_comes_first(monkeypatch):
     for module, _ in LIBRARIES.values():
         monkeypatch.setattr(module, "library", lambda: None)
-    assert best_available() is pardiso.pardiso
-    _hide_library(monkeypatch, pardiso)
     assert best_available() is cholmod.cholmod
+    _hide_library(monkeypatch, cholmod)
+    assert best_available() is pardiso.pardiso
 
 
 def _hide_library(monkeypatch, module):

@@ -1,4 +1,4 @@
-"""The back ends by name, and the fastest one that is installed."""
+"""The back ends by name, and the best one that is installed."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ BACK_ENDS = MappingProxyType({"superlu": superlu, "cholmod": cholmod.cholmod, "p
 
 
 def best_available() -> Factorize:
-    """The fastest back end whose library can be loaded; the order is that of benchmarks/README.md."""
-    for module, name in ((pardiso, "pardiso"), (cholmod, "cholmod")):
+    """The best back end whose library can be loaded; benchmarks/README.md says why in this order."""
+    for module, name in ((cholmod, "cholmod"), (pardiso, "pardiso")):
         with suppress(MissingDependencyError):
             module.library()
             return BACK_ENDS[name]

@@ -115,7 +115,7 @@ class GeneralModel:
         ----------
         highest_hz : upper end of the band.
         materials, element_scale : see `stiffness_matrix`.
-        back_end : factorizes K + σ M; the fastest that is installed if None.
+        back_end : factorizes K + σ M; the best that is installed if None.
         expected : how many modes to ask for first; doubled until the band is covered.
 
         Raises
