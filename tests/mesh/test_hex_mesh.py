@@ -115,3 +115,17 @@ def test_a_mesh_cannot_be_changed():
     for array in (mesh.nodes, mesh.elements, mesh.region, mesh.tooth_plane, mesh.slot_plane, full.nodes):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0
+
+
+def test_elements_move_to_a_region_and_back():
+    mesh = mesh_step(stator().step(STEPS["wound"]), COARSE)
+    some = np.array([0, 2])
+    strip = mesh.with_region("strip", some)
+    assert type(strip) is type(mesh)
+    np.testing.assert_array_equal(strip.elements_of("strip"), mesh.elements[some])
+    assert strip.regions == (*mesh.regions, "strip")
+    back = strip.with_region("lamination", strip.region == strip.regions.index("strip"))
+    np.testing.assert_array_equal(back.region[some], mesh.regions.index("lamination"))
+    np.testing.assert_array_equal(np.delete(back.region, some), np.delete(mesh.region, some))
+    assert len(back.elements_of("strip")) == 0
+    assert "strip" not in mesh.regions

@@ -8,6 +8,7 @@ from statorhom.errors import SolverError
 from statorhom.materials.isotropic import Isotropic
 from statorhom.materials.rotation import cylinder_axes, rotate
 from statorhom.mesh.hex_mesh import HexMesh
+from statorhom.model import assembly
 from statorhom.model.affine import Material
 from statorhom.model.assembly import (
     CHUNK,
@@ -110,6 +111,19 @@ def test_the_pattern_adds_every_block_where_it_belongs():
     matrix = pattern.matrix(pattern.gather(blocks.reshape(-1, 3, 3)))
     np.testing.assert_allclose(matrix.toarray(), dense.transpose(0, 2, 1, 3).reshape(90, 90), atol=1e-13)
     assert len(pattern.indices) == np.count_nonzero(dense[..., 0, 0])
+
+
+@pytest.mark.parametrize("places", [1, 7, 10_000])
+def test_shared_blocks_add_up_whatever_the_size_of_a_portion(monkeypatch, places):
+    monkeypatch.setattr(assembly, "PLACES", places)
+    rng = np.random.default_rng(4)
+    elements = np.array([rng.permutation(26)[:20] for _ in range(3)])
+    pattern = block_pattern(elements, 26)
+    blocks, owner = rng.standard_normal((2, 20, 20, 3, 3)), np.array([1, 0, 1])
+    scale = np.array([0.5, 2.0, 3.0])
+    own = blocks[owner] * scale[:, None, None, None, None]
+    expected = pattern.gather(own.reshape(-1, 3, 3))
+    np.testing.assert_allclose(pattern.gather_shared(blocks, owner, scale), expected, atol=1e-14)
 
 
 def test_the_strain_of_a_uniform_deformation_is_that_deformation():

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
+from typing import Self
 
 import numpy as np
 
@@ -42,6 +43,13 @@ class HexMesh:
     def elements_of(self, region: str) -> np.ndarray:
         """(k, 20) elements of one region."""
         return self.elements[self.region == self.regions.index(region)]
+
+    def with_region(self, name: str, elements: np.ndarray) -> Self:
+        """The same mesh with elements, given by number or by a mask, moved to a (new) region."""
+        regions = self.regions if name in self.regions else (*self.regions, name)
+        region = self.region.copy()
+        region[elements] = regions.index(name)
+        return replace(self, region=region, regions=regions)
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ from statorhom.model.element import gauss_table
 
 @dataclass(frozen=True)
 class Material:
-    """Hooke's matrix in cylindrical axes (Pa) and density (kg/m³) of a region."""
+    """Hooke's matrix in the axes of the model's frame (Pa) and density (kg/m³) of a region."""
 
     hooke: Hooke
     density: float

@@ -1,8 +1,8 @@
 """Element matrices by batched products, assembled into one block pattern.
 
-Displacements are the cylindrical components (u_r, u_θ, u_z) at each node. The finite-element space is that of
-Cartesian nodal displacements, but turning the stator by a slot pitch leaves every number unchanged, and a
-material's axes are its natural ones at every Gauss point.
+Displacements are the components at each node along the axes of a frame, usually the cylindrical (u_r, u_θ, u_z).
+The finite-element space is that of Cartesian nodal displacements, but turning the stator by a slot pitch leaves
+every number unchanged, and a material's axes are its natural ones at every Gauss point.
 """
 
 from __future__ import annotations
@@ -16,9 +16,11 @@ import scipy.sparse as sp
 from statorhom.errors import SolverError
 from statorhom.mesh.hex_mesh import HexMesh
 from statorhom.model.element import ShapeTable, gauss_table
+from statorhom.model.frames import Frame, cylindrical
 
 # the nine independent entries of an orthotropic Hooke's matrix, as (row, column) pairs
 HOOKE_ENTRIES = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2), (3, 3), (4, 4), (5, 5))
+PLACES = 200_000  # of the pattern at a time: bounds the memory of their summands to 50 MB
 CHUNK = 256  # elements at a time: bounds the memory of the strain matrices to 70 MB
 
 
@@ -45,6 +47,19 @@ class BlockPattern:
     def gather(self, blocks: np.ndarray) -> np.ndarray:
         """Sum element blocks (elements × 20 × 20, …) into their places (places, …)."""
         return np.add.reduceat(blocks[self.order], self.starts, axis=0)
+
+    def gather_shared(self, blocks: np.ndarray, owner: np.ndarray, scale: np.ndarray) -> np.ndarray:
+        """Sum blocks (k, 20, 20, 3, 3) that elements share: element e has those of `owner[e]` times `scale[e]`."""
+        total = np.empty((len(self.starts), 3, 3))
+        ends = np.r_[self.starts[1:], len(self.order)]
+        for first in range(0, len(total), PLACES):
+            last = min(first + PLACES, len(total)) - 1
+            begin = self.starts[first]
+            element, pair = np.divmod(self.order[begin : ends[last]], 400)
+            summands = blocks.reshape(-1, 400, 3, 3)[owner[element], pair]
+            summands *= scale[element][:, None, None]
+            np.add.reduceat(summands, self.starts[first : last + 1] - begin, out=total[first : last + 1])
+        return total
 
     def part(self, elements: np.ndarray) -> PartialGather:
         """What sums the blocks of some elements only, given by their ascending numbers."""
@@ -94,8 +109,8 @@ class ElementGeometry:
     Parameters
     ----------
     volume : (e, q) weights times Jacobian determinant (m³).
-    gradients : (e, q, 20, 3) shape-function gradients along the local cylindrical axes (1/m).
-    turn : (e, q, 20) angle from the Gauss point to each node (rad).
+    gradients : (e, q, 20, 3) shape-function gradients along the frame's axes at the Gauss point (1/m).
+    turn : (e, q, 20) angle from the Gauss point's axes to each node's (rad).
     """
 
     volume: np.ndarray
@@ -103,7 +118,7 @@ class ElementGeometry:
     turn: np.ndarray
 
 
-def element_geometry(nodes: np.ndarray, table: ShapeTable) -> ElementGeometry:
+def element_geometry(nodes: np.ndarray, table: ShapeTable, frame: Frame = cylindrical) -> ElementGeometry:
     """Isoparametric map of elements whose node positions are `nodes` (e, 20, 3).
 
     Raises
@@ -119,21 +134,20 @@ def element_geometry(nodes: np.ndarray, table: ShapeTable) -> ElementGeometry:
         )
     cartesian = table.gradients[None] @ np.linalg.inv(jacobian)
     position = np.einsum("qa,eai->eqi", table.values, nodes)
-    angle = np.arctan2(position[..., 1], position[..., 0])
+    angle = frame(position)
     cos, sin = np.cos(angle)[..., None], np.sin(angle)[..., None]
     gx, gy, gz = np.moveaxis(cartesian, -1, 0)
     local = np.stack([cos * gx + sin * gy, cos * gy - sin * gx, gz], axis=-1)
-    node_angle = np.arctan2(nodes[..., 1], nodes[..., 0])
-    turn = np.remainder(node_angle[:, None, :] - angle[..., None] + np.pi, 2 * np.pi) - np.pi
+    turn = np.remainder(frame(nodes)[:, None, :] - angle[..., None] + np.pi, 2 * np.pi) - np.pi
     return ElementGeometry(table.weights * determinant, local, turn)
 
 
 def strain_matrix(g: ElementGeometry) -> np.ndarray:
-    """Strain (Voigt 11, 22, 33, 23, 13, 12) of nodal cylindrical displacements, (e, q, 6, 60)."""
+    """Strain (Voigt 11, 22, 33, 23, 13, 12) of nodal displacements in the frame's components, (e, q, 6, 60)."""
     cos, sin = np.cos(g.turn), np.sin(g.turn)
     g1, g2, g3 = np.moveaxis(g.gradients, -1, 0)
     zero = np.zeros_like(g1)
-    # columns are u_r, u_θ, u_z of a node; in the Gauss point's axes u_r contributes (cos, sin), u_θ (-sin, cos)
+    # columns are u_1, u_2, u_3 of a node; in the Gauss point's axes u_1 contributes (cos, sin), u_2 (-sin, cos)
     rows = [
         (g1 * cos, -g1 * sin, zero),
         (g2 * sin, g2 * cos, zero),
@@ -153,6 +167,14 @@ def stiffness_blocks(g: ElementGeometry) -> Iterator[np.ndarray]:
     for i, j in HOOKE_ENTRIES:
         block = weighted[:, :, i].transpose(0, 2, 1) @ strain[:, :, j]
         yield block if i == j else block + block.transpose(0, 2, 1)
+
+
+def elastic_blocks(g: ElementGeometry, hooke: np.ndarray) -> np.ndarray:
+    """Element stiffness of a material with any Hooke's matrix (6, 6), (e, 60, 60)."""
+    strain = strain_matrix(g)
+    stress = (hooke @ strain) * g.volume[..., None, None]
+    e = len(strain)
+    return stress.reshape(e, -1, 60).transpose(0, 2, 1) @ strain.reshape(e, -1, 60)
 
 
 def mass_blocks(g: ElementGeometry, values: np.ndarray) -> np.ndarray:

@@ -16,6 +16,8 @@ from statorhom.errors import SolverError
 SHIFT = 0.05
 
 Solve = Callable[[np.ndarray], np.ndarray]
+# of a sparse symmetric positive definite matrix
+Factorize = Callable[[sp.csr_array], Solve]
 
 
 def factorize(matrix: sp.csr_array) -> Solve:
@@ -41,7 +43,13 @@ def factorize(matrix: sp.csr_array) -> Solve:
 
 
 def modes_below(
-    K: sp.csr_array, M: sp.csr_array, highest_hz: float, expected: int = 8, most: int | None = None
+    K: sp.csr_array,
+    M: sp.csr_array,
+    highest_hz: float,
+    expected: int = 8,
+    most: int | None = None,
+    back_end: Factorize = factorize,
+    tolerance: float = 0.0,
 ) -> tuple[np.ndarray, np.ndarray]:
     """All eigenpairs of K x = λ M x up to a frequency, rigid-body modes included.
 
@@ -51,6 +59,8 @@ def modes_below(
     highest_hz : upper end of the band.
     expected : how many modes to ask for first; doubled until the band is covered.
     most : stop at this many modes although the band may hold more; None for all.
+    back_end : factorizes the shifted matrix.
+    tolerance : relative, of the eigenvalues above the shift; 0 for rounding alone.
 
     Returns
     -------
@@ -65,10 +75,10 @@ def modes_below(
     top = (2 * np.pi * highest_hz) ** 2
     sigma = -SHIFT * top
     with threadpool_limits(limits=1, user_api="blas"):
-        solve = factorize(sp.csr_array(K - sigma * M))
+        solve = back_end(sp.csr_array(K - sigma * M))
         count = expected if most is None else min(expected, most)
         while True:
-            values, vectors = _lowest(K, M, sigma, solve, count)
+            values, vectors = _lowest(K, M, sigma, solve, count, tolerance)
             if values[-1] > top or len(values) == K.shape[0] or count == most:
                 keep = values <= top
                 return values[keep], vectors[:, keep]
@@ -85,7 +95,7 @@ def lowest_modes(
 
 
 def _lowest(
-    K: sp.csr_array, M: sp.csr_array, sigma: float, solve: Solve, count: int
+    K: sp.csr_array, M: sp.csr_array, sigma: float, solve: Solve, count: int, tolerance: float = 0.0
 ) -> tuple[np.ndarray, np.ndarray]:
     n = K.shape[0]
     if count >= n - 1:
@@ -94,7 +104,7 @@ def _lowest(
     start = np.random.default_rng(0).standard_normal(n)  # a fixed start: the same study gives the same digits
     try:
         values, vectors = eigsh(
-            K, count, M, sigma=sigma, OPinv=operator, v0=start, ncv=min(n, 2 * count + 10)
+            K, count, M, sigma=sigma, OPinv=operator, v0=start, ncv=min(n, 2 * count + 10), tol=tolerance
         )
     except Exception as error:
         raise SolverError(

@@ -1,0 +1,1 @@
+"""Sparse factorizations of symmetric positive definite matrices, one library a file."""

@@ -1,0 +1,1 @@
+"""Bodies without symmetry: one sparse problem of the whole mesh."""
