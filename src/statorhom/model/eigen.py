@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import scipy.sparse as sp
 from scipy.linalg import eigh
-from scipy.sparse.linalg import LinearOperator, eigsh, splu
+from scipy.sparse.linalg import LinearOperator, SuperLU, eigsh, splu
 from threadpoolctl import threadpool_limits
 
 from statorhom.errors import SolverError
@@ -21,6 +21,12 @@ Factorize = Callable[[sp.csr_array], Solve]
 
 
 def factorize(matrix: sp.csr_array) -> Solve:
+    """What solves with a symmetric positive definite matrix; see `symmetric_lu`."""
+    solve: Solve = symmetric_lu(matrix).solve
+    return solve
+
+
+def symmetric_lu(matrix: sp.csr_array) -> SuperLU:
     """Sparse LU of a symmetric positive definite matrix (SuperLU without pivoting, minimum degree of A + Aᵀ).
 
     Raises
@@ -29,7 +35,7 @@ def factorize(matrix: sp.csr_array) -> Solve:
         If the matrix is singular or has entries that are not numbers.
     """
     try:
-        lu = splu(
+        return splu(
             sp.csc_matrix(matrix),
             permc_spec="MMD_AT_PLUS_A",
             diag_pivot_thresh=0.0,
@@ -39,7 +45,6 @@ def factorize(matrix: sp.csr_array) -> Solve:
         raise SolverError(
             f"the stiffness matrix cannot be factorized ({error}); check the materials"
         ) from None
-    return lu.solve
 
 
 def modes_below(

@@ -1,0 +1,1 @@
+"""Stators whose symmetry something breaks, solved in the basis of the symmetric one."""

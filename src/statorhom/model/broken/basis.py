@@ -1,0 +1,224 @@
+"""The symmetric stator's modes of all harmonics, as the basis in which its broken symmetry is solved.
+
+Beside the modes a problem may hold further vectors (`statorhom.model.broken.enrich`); together they are Ritz vectors
+of the symmetric stator. A few random probes ζ with covariance (K' + σM)⁻¹ go with them: for any residual r the
+mean of (ζᵀr)² is rᵀ(K' + σM)⁻¹r, so that the error of a solution is known without a solve. K' is the stiffness of the
+symmetric stator that is nowhere stiffer than any broken one (`statorhom.model.broken.soften`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+from threadpoolctl import threadpool_limits
+
+from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.broken.grams import GramCache
+from statorhom.model.broken.pieces import Pieces
+from statorhom.model.broken.waves import Waves
+from statorhom.model.eigen import SHIFT, Solve, factorize, modes_below, symmetric_lu
+from statorhom.model.harmonic import Harmonic, all_orders, harmonic_spaces
+
+MARGIN = 2.0  # modes reach this much higher than the band
+FIRST_GUESS = 10  # modes of a harmonic's first problem
+PROBES = 8  # per problem
+
+Mapper = Callable[[Callable[[int], "tuple[ProblemBasis, ...]"], Iterable[int]], Iterable["tuple[ProblemBasis, ...]"]]
+
+
+@dataclass(frozen=True)
+class ProblemBasis:
+    """One harmonic problem.
+
+    Parameters
+    ----------
+    space : the problem.
+    K, M : of the problem times its copies, so that yᵀMy is the whole stator's.
+    soft : K' of the softest symmetric stator, like K.
+    values : (w,) Ritz values of the vectors (rad²/s²).
+    vectors : (m, w) coordinates of unit modal mass.
+    probes : (m, t) random vectors with covariance (K' + σM)⁻¹.
+    """
+
+    space: Harmonic
+    K: sp.csr_array
+    M: sp.csr_array
+    soft: sp.csr_array
+    values: np.ndarray
+    vectors: np.ndarray
+    probes: np.ndarray
+
+    def __post_init__(self) -> None:
+        for array in (self.values, self.vectors, self.probes):
+            array.setflags(write=False)
+
+    @property
+    def families(self) -> tuple[bool, ...]:
+        """The shapes of a column: False for the cosine, True for the sine family."""
+        return {"pair": (False, True), "even": (False,), "odd": (True,)}[self.space.parity]
+
+
+@dataclass(frozen=True)
+class SymmetricBasis:
+    """All problems of a symmetric stator.
+
+    Parameters
+    ----------
+    mesh : of the half pitch.
+    problems : of all harmonics.
+    highest_hz : upper end of the band.
+    cut_hz : all modes of the symmetric stator up to here are in the basis.
+    shift : σ (rad²/s²).
+    softest : pieces that may be softened, and the least weight (e,) of each.
+    """
+
+    mesh: HalfPitchMesh
+    problems: tuple[ProblemBasis, ...]
+    highest_hz: float
+    cut_hz: float
+    shift: float
+    softest: tuple[tuple[Pieces, np.ndarray], ...] = ()
+    grams: GramCache = field(default_factory=GramCache, repr=False, compare=False)
+
+    @cached_property
+    def waves(self) -> Waves:
+        """Columns of the basis."""
+        return self._waves([p.vectors for p in self.problems])
+
+    @cached_property
+    def probes(self) -> Waves:
+        """Columns of the probes."""
+        return self._waves([p.probes for p in self.problems])
+
+    @cached_property
+    def values(self) -> np.ndarray:
+        """Ritz values of all coordinates of the basis."""
+        columns = np.concatenate([p.values for p in self.problems])
+        return np.concatenate([columns[self.waves.cosine], columns[self.waves.sine]])
+
+    @cached_property
+    def probed(self) -> tuple[np.ndarray, np.ndarray]:
+        """ζᵀKW and ζᵀMW between all coordinates of the probes and of the basis."""
+        found = []
+        for name in ("K", "M"):
+            blocks = [p.probes.T @ (getattr(p, name) @ p.vectors) for p in self.problems]
+            columns = sp.block_diag(blocks, format="csr").toarray()
+            cosine = columns[np.ix_(self.probes.cosine, self.waves.cosine)]
+            sine = columns[np.ix_(self.probes.sine, self.waves.sine)]
+            found.append(np.asarray(sp.block_diag([cosine, sine], format="csr").toarray()))
+        return found[0], found[1]
+
+    @cached_property
+    def solvers(self) -> tuple[Solve, ...]:
+        """(K + σM)⁻¹ of every problem."""
+        return tuple(factorize(sp.csr_array(p.K + self.shift * p.M)) for p in self.problems)
+
+    @cached_property
+    def soft_solvers(self) -> tuple[Solve, ...]:
+        """(K' + σM)⁻¹ of every problem."""
+        return tuple(factorize(sp.csr_array(p.soft + self.shift * p.M)) for p in self.problems)
+
+    @cached_property
+    def places(self) -> tuple[dict[bool, slice], ...]:
+        """Per problem: family → where its columns stand among the coordinates."""
+        start = {False: 0, True: len(self.waves.cosine)}
+        found = []
+        for problem in self.problems:
+            place = {}
+            for sine in problem.families:
+                place[sine] = slice(start[sine], start[sine] + len(problem.values))
+                start[sine] = place[sine].stop
+            found.append(place)
+        return tuple(found)
+
+    def _waves(self, vectors: list[np.ndarray]) -> Waves:
+        counts = [v.shape[1] for v in vectors]
+        numbers = np.split(np.arange(sum(counts)), np.cumsum(counts)[:-1])
+        chosen = {
+            sine: np.concatenate(
+                [np.empty(0, int)] + [n for n, p in zip(numbers, self.problems, strict=True) if sine in p.families]
+            )
+            for sine in (False, True)
+        }
+        shapes = [p.space.expand(v) for p, v in zip(self.problems, vectors, strict=True)]
+        order = np.repeat([p.space.order for p in self.problems], counts)
+        return Waves(np.hstack(shapes), order, chosen[False], chosen[True], self.mesh.slots)
+
+
+@dataclass(frozen=True)
+class BasisTask:
+    """What solves the problems of a harmonic; can be sent to other processes.
+
+    Parameters
+    ----------
+    mesh : of the half pitch.
+    K, M : of the half pitch.
+    cut_hz : highest frequency of the modes.
+    shift : σ.
+    """
+
+    mesh: HalfPitchMesh
+    K: sp.csr_array
+    M: sp.csr_array
+    cut_hz: float
+    shift: float
+
+    def __call__(self, order: int) -> tuple[ProblemBasis, ...]:
+        """All problems of a harmonic."""
+        found: list[ProblemBasis] = []
+        with threadpool_limits(limits=1, user_api="blas"):
+            for space in harmonic_spaces(self.mesh, order):
+                K, M = (sp.csr_array(space.copies * space.project(m)) for m in (self.K, self.M))
+                # the problems of one harmonic have about as many modes
+                expected = len(found[-1].values) + 2 if found else FIRST_GUESS
+                values, vectors = modes_below(K, M, self.cut_hz, expected)
+                found.append(ProblemBasis(space, K, M, K, values, vectors, probes(K, M, self.shift, order)))
+        return tuple(found)
+
+
+def symmetric_basis(
+    model: AffineModel,
+    materials: Materials,
+    highest_hz: float,
+    *,
+    margin: float = MARGIN,
+    contact: sp.csr_array | None = None,
+    mapper: Mapper = map,
+) -> SymmetricBasis:
+    """Modes of the symmetric stator in a band.
+
+    Parameters
+    ----------
+    model : of the half pitch.
+    materials : of every region of the model.
+    highest_hz : upper end of the band in which the broken symmetry is to be solved.
+    margin : the modes reach up to `margin` times `highest_hz`.
+    contact : further stiffness of the half pitch (N/m), the same in all copies.
+    mapper : `map`, or the parallel map of an executor; called with a picklable function and the orders.
+
+    Raises
+    ------
+    SolverError
+        If a harmonic's problem cannot be solved.
+    """
+    K, M = model.stiffness_matrix(materials), model.mass_matrix(materials)
+    if contact is not None:
+        K = sp.csr_array(K + contact)
+    shift = SHIFT * (2 * np.pi * highest_hz) ** 2
+    task = BasisTask(model.mesh, K, M, margin * highest_hz, shift)
+    problems = [p for group in mapper(task, all_orders(model.mesh.slots)) for p in group]
+    return SymmetricBasis(model.mesh, tuple(problems), highest_hz, margin * highest_hz, shift)
+
+
+def probes(K: sp.csr_array, M: sp.csr_array, shift: float, seed: int) -> np.ndarray:
+    """Random vectors (m, t) with covariance (K + σM)⁻¹: responses to loads with covariance K + σM."""
+    lu = symmetric_lu(sp.csr_array(K + shift * M))
+    weights = np.random.default_rng(seed).standard_normal((K.shape[0], PROBES))
+    # P A Pᵀ = L D Lᵀ
+    loads = lu.L @ (np.sqrt(lu.U.diagonal())[:, None] * weights)
+    return np.asarray(lu.solve(np.ascontiguousarray(loads[lu.perm_r])))

@@ -1,0 +1,78 @@
+"""Stiffness and mass of the broken stator in the basis of waves and static responses, and its residuals' probes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from statorhom.model.broken.basis import SymmetricBasis
+from statorhom.model.broken.change import Attachment, Change, PieceChange
+from statorhom.model.broken.grams import GramCache, project
+from statorhom.model.broken.pieces import Pieces
+from statorhom.model.broken.statics import Statics, statics
+from statorhom.model.broken.waves import Waves
+
+
+@dataclass(frozen=True)
+class Coupled:
+    """The broken stator in coordinates x = (q, f): of the basis W, then of the static responses Y.
+
+    Parameters
+    ----------
+    statics : of the attachments.
+    pieces : changes of pieces.
+    K, M : (n, n).
+    probed_K, probed_M : (probes, n) of ζᵀK and ζᵀM.
+    """
+
+    statics: Statics
+    pieces: tuple[PieceChange, ...]
+    K: np.ndarray
+    M: np.ndarray
+    probed_K: np.ndarray
+    probed_M: np.ndarray
+
+
+def couple(basis: SymmetricBasis, changes: Sequence[Change]) -> Coupled:
+    """Assemble what the changes couple."""
+    own = statics(basis, [c for c in changes if isinstance(c, Attachment)])
+    pieces = tuple(c for c in changes if isinstance(c, PieceChange))
+    sigma, rows, products, G, H = basis.shift, own.rows, own.products, own.flexibility, own.inertia
+    mixed = rows.T - sigma * products
+    K = np.block([[np.diag(basis.values), mixed], [mixed.T, G - sigma * H]])
+    M = np.block([[np.eye(len(basis.values)), products], [products.T, H]])
+    (zK, zM), (zL, zY) = basis.probed, own.probed
+    probed_K, probed_M = np.hstack([zK, zL - sigma * zY]), np.hstack([zM, zY])
+    motion = np.hstack([rows, G])
+    K += motion.T @ own.stiffness @ motion
+    M += motion.T @ own.mass @ motion
+    probed_K += zL @ (own.stiffness @ motion)
+    probed_M += zL @ (own.mass @ motion)
+    for change in pieces:
+        for total, probed, part in ((K, probed_K, change.stiffness), (M, probed_M, change.mass)):
+            if part is not None:
+                inner, outer = piece_matrices(basis, own, part, change.weights)
+                total += inner
+                probed += outer
+    return Coupled(own, pieces, K, M, probed_K, probed_M)
+
+
+def piece_matrices(
+    basis: SymmetricBasis, own: Statics, part: Pieces, weights: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Weighted pieces between all coordinates (n, n), and between the probes and them."""
+    waves, probes = basis.waves, basis.probes
+    inner = project(basis.grams, part, weights, waves, waves)
+    outer = project(basis.grams, part, weights, probes, waves)
+    if len(own):
+        columns, units = own.waves
+
+        def with_statics(rows: Waves) -> np.ndarray:
+            return np.asarray(project(GramCache(), part, weights, rows, columns) @ units)
+
+        mixed = with_statics(waves)
+        inner = np.block([[inner, mixed], [mixed.T, units.T @ with_statics(columns)]])
+        outer = np.hstack([outer, with_statics(probes)])
+    return (inner + inner.T) / 2, outer

@@ -1,0 +1,124 @@
+"""Further vectors of every problem where a solution's residual asks for them.
+
+A residual's response (K + σM)⁻¹ r splits into one vector per problem and family. Turning a change by a slot pitch
+only turns their phases, so that a basis enriched for one angle serves all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+from scipy.linalg import eigh
+
+from statorhom.model.broken.basis import ProblemBasis, SymmetricBasis
+from statorhom.model.broken.coupling import Coupled
+from statorhom.model.broken.pieces import Pieces
+
+# A direction that would lower no frequency by this part of the tolerance is left out: there are some hundred.
+NEGLIGIBLE = 3e-3
+DROP = 1e-14  # squared part of a vector outside the basis below which it is rounding
+
+
+def enriched(
+    basis: SymmetricBasis, coupled: Coupled, values: np.ndarray, x: np.ndarray, tolerance: float
+) -> SymmetricBasis:
+    """The basis with the responses to the residuals of a solution.
+
+    Parameters
+    ----------
+    coupled : the broken stator in the basis.
+    values, x : its eigenvalues (rad²/s²) and coordinates (n, modes).
+    tolerance : relative error of the frequencies that is aimed at.
+    """
+    forces = _piece_forces(basis, coupled, values, x)
+    problems = []
+    for number, problem in enumerate(basis.problems):
+        # where pieces are softened the one is right inside and the other outside of them
+        solvers = [basis.solvers[number], basis.soft_solvers[number]][: 1 + bool(basis.softest)]
+        found = []
+        for sine in problem.families:
+            residual = _residual(basis, coupled, number, sine, values, x) + _folded(problem, forces, sine)
+            # in units of relative frequency error that is at stake
+            found += [solve(residual) / np.sqrt(2 * values) for solve in solvers]
+        problems.append(extended(problem, np.hstack(found), basis.shift, NEGLIGIBLE * tolerance))
+    return replace(basis, problems=tuple(problems), grams=type(basis.grams)())
+
+
+def extended(problem: ProblemBasis, vectors: np.ndarray, shift: float, least: float) -> ProblemBasis:
+    """A problem's basis with the directions of `vectors` whose (K + σM)-norm squared is more than `least`."""
+    W, K, M = problem.vectors, problem.K, problem.M
+    new = vectors - W @ (W.T @ (M @ vectors))
+    new -= W @ (W.T @ (M @ new))
+    energy, rotation = np.linalg.eigh(new.T @ (K @ new) + shift * (new.T @ (M @ new)))
+    new = new @ rotation[:, energy > least]
+    gram = new.T @ (M @ new)
+    scale = 1 / np.sqrt(np.diag(gram))
+    gram, rotation = np.linalg.eigh(gram * scale * scale[:, None])
+    keep = gram > DROP
+    new = (new * scale) @ (rotation[:, keep] / np.sqrt(gram[keep]))
+    joined = np.hstack([W, new])
+    stiffness, mass = joined.T @ (K @ joined), joined.T @ (M @ joined)
+    values, vectors = eigh((stiffness + stiffness.T) / 2, (mass + mass.T) / 2)
+    return replace(problem, values=values, vectors=joined @ vectors)
+
+
+def _residual(
+    basis: SymmetricBasis, coupled: Coupled, number: int, sine: bool, values: np.ndarray, x: np.ndarray
+) -> np.ndarray:
+    """What the symmetric stator and the attachments leave of the equations of motion, in a problem's coordinates."""
+    problem, own = basis.problems[number], coupled.statics
+    size = len(basis.values)
+    q, f = x[:size], x[size:]
+    y = problem.vectors @ q[basis.places[number][sine]]
+    y += own.responses[number][sine] @ f
+    motion = own.rows @ q + own.flexibility @ f
+    reaction = own.stiffness @ motion - (own.mass @ motion) * values
+    return np.asarray(problem.K @ y - (problem.M @ y) * values + own.loads[number][sine] @ reaction)
+
+
+def _piece_forces(
+    basis: SymmetricBasis, coupled: Coupled, values: np.ndarray, x: np.ndarray
+) -> Mapping[bool, np.ndarray]:
+    """Forces (N, 3 n, modes) of changed pieces on all straight (False) and mirrored (True) half pitches."""
+    slots, count = basis.mesh.slots, 3 * len(basis.mesh.nodes)
+    total = {side: np.zeros((slots, count, len(values))) for side in (False, True)}
+    for change in coupled.pieces:
+        for part, factor in ((change.stiffness, np.ones(len(values))), (change.mass, -values)):
+            if part is None:
+                continue
+            used = np.flatnonzero(np.any(change.weights != 0.0, axis=1))
+            forces = factor * _applied(basis, coupled, part.take(used), change.weights[used], x)
+            dofs = np.unique(part.take(used).dofs)
+            total[False][:, dofs] += forces[0::2]
+            total[True][:, dofs] += forces[1::2]
+    return total
+
+
+def _applied(
+    basis: SymmetricBasis, coupled: Coupled, pieces: Pieces, weights: np.ndarray, x: np.ndarray
+) -> np.ndarray:
+    """Weighted pieces times a motion, on their displacements in every copy, (2 N, d, modes)."""
+    dofs, local = np.unique(pieces.dofs, return_inverse=True)
+    part = Pieces(local.reshape(pieces.dofs.shape), pieces.matrices, len(dofs))
+    size = len(basis.values)
+    motion = basis.waves.in_copies(dofs, x[:size])
+    if len(coupled.statics):
+        columns, units = coupled.statics.waves
+        motion += columns.in_copies(dofs, units @ x[size:])
+    return np.stack([part.matrix(w) @ u if np.any(w) else 0 * u for w, u in zip(weights.T, motion, strict=True)])
+
+
+def _folded(problem: ProblemBasis, forces: Mapping[bool, np.ndarray], sine: bool) -> np.ndarray:
+    """Forces on all half pitches in a problem's coordinates."""
+    space = problem.space
+    turn = np.exp(-2j * np.pi * space.order / space.slots * np.arange(space.slots))
+    straight, mirrored = (np.tensordot(turn, forces[side], axes=1) for side in (False, True))
+    if sine:
+        return np.asarray(
+            space.imaginary.T @ (straight.real - mirrored.real) - space.real.T @ (straight.imag + mirrored.imag)
+        )
+    return np.asarray(
+        space.real.T @ (straight.real + mirrored.real) + space.imaginary.T @ (straight.imag - mirrored.imag)
+    )

@@ -1,0 +1,155 @@
+"""Modes of the broken stator, with an error estimate of every frequency, enriched until the errors are small."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import chi2
+from threadpoolctl import threadpool_limits
+
+from statorhom.errors import SolverError
+from statorhom.model.broken.basis import PROBES, SymmetricBasis
+from statorhom.model.broken.change import Change, PieceChange
+from statorhom.model.broken.coupling import Coupled, couple
+from statorhom.model.broken.enrich import enriched
+from statorhom.model.broken.soften import softened
+from statorhom.model.eigen import frequency_hz
+from statorhom.model.reduced import lowest_pairs
+from statorhom.model.stator_mode import RIGID_HZ
+from statorhom.model.supported_shapes import ShapePart, SupportedModes
+
+TOLERANCE = 1e-3  # relative error of every frequency in the band
+ROUNDS = 8  # enrichments before giving up
+CONFIDENCE = 0.95  # of the error estimates
+DEPENDENT = 1e-10  # part of its mass by which a static response must differ from the basis
+
+
+@dataclass(frozen=True)
+class BrokenModes:
+    """Modes of a stator whose symmetry is broken, of unit modal mass, by ascending frequency.
+
+    Parameters
+    ----------
+    basis : in which they were solved; other angles and strengths of the same changes need no further enrichment.
+    coupled : the problem in that basis.
+    eigenvalues : (modes,) rad²/s².
+    coordinates : (n, modes).
+    errors : (modes,) estimated relative errors of the frequencies against the mesh's own.
+    """
+
+    basis: SymmetricBasis
+    coupled: Coupled
+    eigenvalues: np.ndarray
+    coordinates: np.ndarray
+    errors: np.ndarray
+
+    def __post_init__(self) -> None:
+        for array in (self.eigenvalues, self.coordinates, self.errors):
+            array.setflags(write=False)
+
+    def __len__(self) -> int:
+        return len(self.eigenvalues)
+
+    @property
+    def frequencies_hz(self) -> np.ndarray:
+        """(modes,) natural frequencies."""
+        return frequency_hz(self.eigenvalues)
+
+    @property
+    def shapes(self) -> SupportedModes:
+        """The modes' motion of the surface and of the whole stator."""
+        parts = []
+        size = len(self.basis.values)
+        q, f = self.coordinates[:size], self.coordinates[size:]
+        responses = self.coupled.statics.responses
+        for problem, places, part in zip(self.basis.problems, self.basis.places, responses, strict=True):
+            used = [problem.vectors, *part.values()]
+            families: list[np.ndarray | None] = [None, None]
+            for sine, place in places.items():
+                forces = [f if other is sine else np.zeros_like(f) for other in part]
+                families[int(sine)] = np.vstack([q[place], *forces])
+            parts.append(ShapePart(problem.space, np.hstack(used), *families))
+        return SupportedModes(self.frequencies_hz, self.errors, tuple(parts))
+
+
+def solve_broken(
+    basis: SymmetricBasis, changes: Sequence[Change], tolerance: float | None = TOLERANCE
+) -> BrokenModes:
+    """Modes of the basis's band, rigid bodies left out.
+
+    Parameters
+    ----------
+    basis : of the symmetric stator.
+    changes : all that breaks its symmetry.
+    tolerance : largest estimated relative error of a frequency; the basis is enriched until it is met. None:
+        solve in the basis as it is.
+
+    Raises
+    ------
+    SolverError
+        If the tolerance cannot be met, or the changes leave a mass or a stiffness that is not definite.
+    """
+    with threadpool_limits(limits=1, user_api="blas"):
+        if tolerance is not None:
+            basis = softened(basis, [c for c in changes if isinstance(c, PieceChange)])
+        modes = _solve(basis, changes)
+        for _ in range(ROUNDS):
+            if tolerance is None or np.all(modes.errors < tolerance):
+                return modes
+            basis = enriched(basis, modes.coupled, modes.eigenvalues, modes.coordinates, tolerance)
+            modes = _solve(basis, changes)
+    if np.any(modes.errors >= tolerance):
+        raise SolverError(
+            f"the broken symmetry is solved to {100 * modes.errors.max():.2g} % only; widen the margin of its basis"
+        )
+    return modes
+
+
+def _solve(basis: SymmetricBasis, changes: Sequence[Change]) -> BrokenModes:
+    coupled = couple(basis, changes)
+    values, x = _eigenpairs(coupled, len(basis.values), (2 * np.pi * basis.highest_hz) ** 2)
+    keep = frequency_hz(values) > RIGID_HZ
+    values, x = values[keep], x[:, keep]
+    return BrokenModes(basis, coupled, values, x, _errors(basis, coupled, values, x))
+
+
+def _eigenpairs(coupled: Coupled, size: int, top: float) -> tuple[np.ndarray, np.ndarray]:
+    K, M = coupled.K, coupled.M
+    change = _orthogonal(coupled, size)
+    if change is not None:
+        K, M = change.T @ K @ change, change.T @ M @ change
+    try:
+        values, x = lowest_pairs((K + K.T) / 2, (M + M.T) / 2, top)
+    except np.linalg.LinAlgError:
+        raise SolverError("the changes leave a mass that is not positive; check their magnitudes") from None
+    return values, x if change is None else change @ x
+
+
+def _orthogonal(coupled: Coupled, size: int) -> np.ndarray | None:
+    """Coordinates (n, k) in which the static responses are orthonormal among each other and to the basis."""
+    statics = coupled.statics
+    if len(statics) == 0:
+        return None
+    inside = statics.products
+    scale = 1 / np.sqrt(np.diag(statics.inertia))
+    outside = (statics.inertia - inside.T @ inside) * scale * scale[:, None]
+    values, vectors = np.linalg.eigh(outside)
+    keep = values > DEPENDENT
+    columns = scale[:, None] * vectors[:, keep] / np.sqrt(values[keep])
+    return np.block([[np.eye(size), -inside @ columns], [np.zeros((len(statics), size)), columns]])
+
+
+def _errors(basis: SymmetricBasis, coupled: Coupled, values: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Relative frequency errors: the residual in the norm of (K + σM)⁻¹, over what lies above the cut.
+
+    λ̃ - λ = Σ c²(λ_i - λ) and ‖r‖² = Σ c²(λ_i - λ)²/(λ_i + σ) over the missing modes i, all above the cut.
+    """
+    residual = (coupled.probed_K @ x - (coupled.probed_M @ x) * values) ** 2
+    squared = np.sum(residual, axis=0) / PROBES
+    # the fewer samples carry the sum the more it scatters: its upper confidence limit counts
+    samples = np.sum(residual, axis=0) ** 2 / np.maximum(np.sum(residual**2, axis=0), np.finfo(float).tiny)
+    squared = squared * samples / chi2.ppf(1 - CONFIDENCE, samples)
+    cut = (2 * np.pi * basis.cut_hz) ** 2
+    return np.asarray(0.5 * squared * (cut + basis.shift) / (cut - values) / values)

@@ -1,0 +1,74 @@
+"""Stiffness that differs around the stator or along it: strips, arcs, waves and gradients, element by element."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.model.affine import Materials, hooke_coefficients
+from statorhom.model.broken.cells import Cells, cells
+from statorhom.model.broken.change import PieceChange
+from statorhom.model.broken.pieces import Pieces, elements_in, mass_pieces, stiffness_pieces
+
+
+def strip(mesh: HalfPitchMesh, core: Pieces, angle: float, *, width: float, depth: float, ratio: float) -> PieceChange:
+    """An axial strip of the back of the core whose stiffness differs; an element counts by its covered share.
+
+    Parameters
+    ----------
+    core : stiffness of the lamination's elements (`region_stiffness`).
+    angle, width : of the strip's middle, and how wide it is (rad).
+    depth : how deep it reaches below the core's outer radius (m).
+    ratio : modulus within the strip over that of the core.
+    """
+    place = cells(mesh, elements_in(mesh, ("lamination",)))
+    inside = place.share_of_arc(angle - width / 2, angle + width / 2)
+    inside = inside * place.share_of_depth(mesh.outer_radius - depth, mesh.outer_radius)[:, None]
+    return PieceChange(core, None, (ratio - 1.0) * inside)
+
+
+def wave(mesh: HalfPitchMesh, yoke: Pieces, angle: float, *, harmonic: int, amplitude: float, inner: float) -> PieceChange:
+    """Stiffness of the back of the core times 1 + ε cos n(θ - α), by its mean over every element's angle.
+
+    Parameters
+    ----------
+    yoke : stiffness of the lamination's elements (`region_stiffness`).
+    angle : α, a maximum of the stiffness (rad).
+    harmonic, amplitude : n and ε.
+    inner : radius at which the yoke begins (m).
+    """
+    place = cells(mesh, elements_in(mesh, ("lamination",)))
+    low, high = np.moveaxis(place.angles, -1, 0)
+    mean = (np.sin(harmonic * (high - angle)) - np.sin(harmonic * (low - angle))) / (harmonic * (high - low))
+    weights = amplitude * mean * place.share_of_depth(inner, mesh.outer_radius)[:, None]
+    return PieceChange(yoke, None, weights)
+
+
+def arc(mesh: HalfPitchMesh, pieces: Pieces, place: Cells, start: float, end: float, ratio: float) -> PieceChange:
+    """Pieces whose stiffness is scaled between two angles (rad); one counts by its covered share."""
+    return PieceChange(pieces, None, (ratio - 1.0) * place.share_of_arc(start, end))
+
+
+def gradient(mesh: HalfPitchMesh, pieces: Pieces, regions: tuple[str, ...], along: Callable[[np.ndarray], np.ndarray]) -> PieceChange:
+    """A stiffness that varies along the axis.
+
+    Parameters
+    ----------
+    pieces : of the elements of `regions` (`stiffness_pieces`): what a weight of one adds.
+    along : weight at heights z (m), taken in the middle of every element.
+    """
+    place = cells(mesh, elements_in(mesh, regions))
+    weights = along(place.z.mean(axis=1))
+    return PieceChange(pieces, None, np.repeat(weights[:, None], 2 * mesh.slots, axis=1))
+
+
+def region_stiffness(mesh: HalfPitchMesh, materials: Materials, regions: tuple[str, ...]) -> Pieces:
+    """Stiffness of all elements of some regions, as their materials are."""
+    return stiffness_pieces(mesh, {r: hooke_coefficients(materials[r].hooke) for r in regions})
+
+
+def region_mass(mesh: HalfPitchMesh, materials: Materials, regions: tuple[str, ...]) -> Pieces:
+    """Mass of all elements of some regions, as their materials are."""
+    return mass_pieces(mesh, {r: materials[r].density for r in regions})
