@@ -8,7 +8,7 @@ symmetric stator that is nowhere stiffer than any broken one (`statorhom.model.b
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -20,9 +20,10 @@ from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.broken.grams import GramCache
 from statorhom.model.broken.pieces import Pieces
+from statorhom.model.broken.sector import Sector, surface_dofs
 from statorhom.model.broken.waves import Waves
 from statorhom.model.eigen import SHIFT, Solve, factorize, modes_below, symmetric_lu
-from statorhom.model.harmonic import Harmonic, all_orders, harmonic_spaces
+from statorhom.model.harmonic import all_orders, harmonic_spaces
 
 MARGIN = 2.0  # modes reach this much higher than the band
 FIRST_GUESS = 10  # modes of a harmonic's first problem
@@ -31,23 +32,20 @@ PROBES = 8  # per problem
 Mapper = Callable[[Callable[[int], "tuple[ProblemBasis, ...]"], Iterable[int]], Iterable["tuple[ProblemBasis, ...]"]]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ProblemBasis:
-    """One harmonic problem.
+    """Basis of one harmonic problem.
 
     Parameters
     ----------
-    space : the problem.
-    K, M : of the problem times its copies, so that yᵀMy is the whole stator's.
+    sector : the problem.
     soft : K' of the softest symmetric stator, like K.
     values : (w,) Ritz values of the vectors (rad²/s²).
     vectors : (m, w) coordinates of unit modal mass.
     probes : (m, t) random vectors with covariance (K' + σM)⁻¹.
     """
 
-    space: Harmonic
-    K: sp.csr_array
-    M: sp.csr_array
+    sector: Sector
     soft: sp.csr_array
     values: np.ndarray
     vectors: np.ndarray
@@ -57,13 +55,18 @@ class ProblemBasis:
         for array in (self.values, self.vectors, self.probes):
             array.setflags(write=False)
 
-    @property
-    def families(self) -> tuple[bool, ...]:
-        """The shapes of a column: False for the cosine, True for the sine family."""
-        return {"pair": (False, True), "even": (False,), "odd": (True,)}[self.space.parity]
+    @cached_property
+    def soft_solve(self) -> Solve:
+        """(K' + σM)⁻¹."""
+        return factorize(sp.csr_array(self.soft + self.sector.shift * self.sector.M))
+
+    @cached_property
+    def surface_products(self) -> tuple[np.ndarray, np.ndarray]:
+        """Mass products (w, s) and (t, s) of vectors and probes with the surface's static responses."""
+        return self.vectors.T @ self.sector.inertial, self.probes.T @ self.sector.inertial
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SymmetricBasis:
     """All problems of a symmetric stator.
 
@@ -106,22 +109,12 @@ class SymmetricBasis:
         """ζᵀKW and ζᵀMW between all coordinates of the probes and of the basis."""
         found = []
         for name in ("K", "M"):
-            blocks = [p.probes.T @ (getattr(p, name) @ p.vectors) for p in self.problems]
+            blocks = [p.probes.T @ (getattr(p.sector, name) @ p.vectors) for p in self.problems]
             columns = sp.block_diag(blocks, format="csr").toarray()
             cosine = columns[np.ix_(self.probes.cosine, self.waves.cosine)]
             sine = columns[np.ix_(self.probes.sine, self.waves.sine)]
             found.append(np.asarray(sp.block_diag([cosine, sine], format="csr").toarray()))
         return found[0], found[1]
-
-    @cached_property
-    def solvers(self) -> tuple[Solve, ...]:
-        """(K + σM)⁻¹ of every problem."""
-        return tuple(factorize(sp.csr_array(p.K + self.shift * p.M)) for p in self.problems)
-
-    @cached_property
-    def soft_solvers(self) -> tuple[Solve, ...]:
-        """(K' + σM)⁻¹ of every problem."""
-        return tuple(factorize(sp.csr_array(p.soft + self.shift * p.M)) for p in self.problems)
 
     @cached_property
     def places(self) -> tuple[dict[bool, slice], ...]:
@@ -130,7 +123,7 @@ class SymmetricBasis:
         found = []
         for problem in self.problems:
             place = {}
-            for sine in problem.families:
+            for sine in problem.sector.families:
                 place[sine] = slice(start[sine], start[sine] + len(problem.values))
                 start[sine] = place[sine].stop
             found.append(place)
@@ -141,16 +134,16 @@ class SymmetricBasis:
         numbers = np.split(np.arange(sum(counts)), np.cumsum(counts)[:-1])
         chosen = {
             sine: np.concatenate(
-                [np.empty(0, int)] + [n for n, p in zip(numbers, self.problems, strict=True) if sine in p.families]
+                [np.empty(0, int)] + [n for n, p in zip(numbers, self.problems, strict=True) if sine in p.sector.families]
             )
             for sine in (False, True)
         }
-        shapes = [p.space.expand(v) for p, v in zip(self.problems, vectors, strict=True)]
-        order = np.repeat([p.space.order for p in self.problems], counts)
+        shapes = [p.sector.space.expand(v) for p, v in zip(self.problems, vectors, strict=True)]
+        order = np.repeat([p.sector.space.order for p in self.problems], counts)
         return Waves(np.hstack(shapes), order, chosen[False], chosen[True], self.mesh.slots)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class BasisTask:
     """What solves the problems of a harmonic; can be sent to other processes.
 
@@ -160,6 +153,7 @@ class BasisTask:
     K, M : of the half pitch.
     cut_hz : highest frequency of the modes.
     shift : σ.
+    surface : displacements on the outer surface.
     """
 
     mesh: HalfPitchMesh
@@ -167,6 +161,7 @@ class BasisTask:
     M: sp.csr_array
     cut_hz: float
     shift: float
+    surface: np.ndarray
 
     def __call__(self, order: int) -> tuple[ProblemBasis, ...]:
         """All problems of a harmonic."""
@@ -177,7 +172,8 @@ class BasisTask:
                 # the problems of one harmonic have about as many modes
                 expected = len(found[-1].values) + 2 if found else FIRST_GUESS
                 values, vectors = modes_below(K, M, self.cut_hz, expected)
-                found.append(ProblemBasis(space, K, M, K, values, vectors, probes(K, M, self.shift, order)))
+                sector = Sector(space, K, M, self.shift, self.surface)
+                found.append(ProblemBasis(sector, K, values, vectors, probes(K, M, self.shift, order)))
         return tuple(found)
 
 
@@ -210,7 +206,7 @@ def symmetric_basis(
     if contact is not None:
         K = sp.csr_array(K + contact)
     shift = SHIFT * (2 * np.pi * highest_hz) ** 2
-    task = BasisTask(model.mesh, K, M, margin * highest_hz, shift)
+    task = BasisTask(model.mesh, K, M, margin * highest_hz, shift, surface_dofs(model.mesh))
     problems = [p for group in mapper(task, all_orders(model.mesh.slots)) for p in group]
     return SymmetricBasis(model.mesh, tuple(problems), highest_hz, margin * highest_hz, shift)
 

@@ -10,7 +10,7 @@ from statorhom.model.broken.pieces import Pieces
 from statorhom.model.surface import SurfacePoints
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Attachment:
     """Springs to the ground and masses on a few motions of points.
 
@@ -32,7 +32,7 @@ class Attachment:
             array.setflags(write=False)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PieceChange:
     """Pieces of the half pitch, each added to every copy with a weight of its own.
 

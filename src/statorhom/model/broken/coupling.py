@@ -15,7 +15,7 @@ from statorhom.model.broken.statics import Statics, statics
 from statorhom.model.broken.waves import Waves
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Coupled:
     """The broken stator in coordinates x = (q, f): of the basis W, then of the static responses Y.
 

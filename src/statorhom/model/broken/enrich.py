@@ -16,13 +16,11 @@ from statorhom.model.broken.basis import ProblemBasis, SymmetricBasis
 from statorhom.model.broken.coupling import Coupled
 from statorhom.model.broken.pieces import Pieces
 
-# A direction that would lower no frequency by this part of the tolerance is left out: there are some hundred.
-NEGLIGIBLE = 3e-3
 DROP = 1e-14  # squared part of a vector outside the basis below which it is rounding
 
 
 def enriched(
-    basis: SymmetricBasis, coupled: Coupled, values: np.ndarray, x: np.ndarray, tolerance: float
+    basis: SymmetricBasis, coupled: Coupled, values: np.ndarray, x: np.ndarray, least: float
 ) -> SymmetricBasis:
     """The basis with the responses to the residuals of a solution.
 
@@ -30,25 +28,25 @@ def enriched(
     ----------
     coupled : the broken stator in the basis.
     values, x : its eigenvalues (rad²/s²) and coordinates (n, modes).
-    tolerance : relative error of the frequencies that is aimed at.
+    least : relative frequency error below which a direction is left out.
     """
     forces = _piece_forces(basis, coupled, values, x)
     problems = []
     for number, problem in enumerate(basis.problems):
         # where pieces are softened the one is right inside and the other outside of them
-        solvers = [basis.solvers[number], basis.soft_solvers[number]][: 1 + bool(basis.softest)]
+        solvers = [problem.sector.solve, problem.soft_solve] if basis.softest else [problem.sector.solve]
         found = []
-        for sine in problem.families:
+        for sine in problem.sector.families:
             residual = _residual(basis, coupled, number, sine, values, x) + _folded(problem, forces, sine)
             # in units of relative frequency error that is at stake
             found += [solve(residual) / np.sqrt(2 * values) for solve in solvers]
-        problems.append(extended(problem, np.hstack(found), basis.shift, NEGLIGIBLE * tolerance))
+        problems.append(extended(problem, np.hstack(found), least))
     return replace(basis, problems=tuple(problems), grams=type(basis.grams)())
 
 
-def extended(problem: ProblemBasis, vectors: np.ndarray, shift: float, least: float) -> ProblemBasis:
+def extended(problem: ProblemBasis, vectors: np.ndarray, least: float) -> ProblemBasis:
     """A problem's basis with the directions of `vectors` whose (K + σM)-norm squared is more than `least`."""
-    W, K, M = problem.vectors, problem.K, problem.M
+    W, K, M, shift = problem.vectors, problem.sector.K, problem.sector.M, problem.sector.shift
     new = vectors - W @ (W.T @ (M @ vectors))
     new -= W @ (W.T @ (M @ new))
     energy, rotation = np.linalg.eigh(new.T @ (K @ new) + shift * (new.T @ (M @ new)))
@@ -72,10 +70,13 @@ def _residual(
     size = len(basis.values)
     q, f = x[:size], x[size:]
     y = problem.vectors @ q[basis.places[number][sine]]
-    y += own.responses[number][sine] @ f
+    if len(own):
+        y = y + own.responses[number][sine] @ f
     motion = own.rows @ q + own.flexibility @ f
     reaction = own.stiffness @ motion - (own.mass @ motion) * values
-    return np.asarray(problem.K @ y - (problem.M @ y) * values + own.loads[number][sine] @ reaction)
+    residual = problem.sector.K @ y - (problem.sector.M @ y) * values
+    residual[problem.sector.loaded] += own.loads[number][sine] @ reaction
+    return np.asarray(residual)
 
 
 def _piece_forces(
@@ -112,7 +113,7 @@ def _applied(
 
 def _folded(problem: ProblemBasis, forces: Mapping[bool, np.ndarray], sine: bool) -> np.ndarray:
     """Forces on all half pitches in a problem's coordinates."""
-    space = problem.space
+    space = problem.sector.space
     turn = np.exp(-2j * np.pi * space.order / space.slots * np.arange(space.slots))
     straight, mirrored = (np.tensordot(turn, forces[side], axes=1) for side in (False, True))
     if sine:

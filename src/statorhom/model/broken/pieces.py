@@ -13,7 +13,7 @@ from statorhom.model.assembly import CHUNK, ElementGeometry, element_geometry, m
 from statorhom.model.element import gauss_table
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Pieces:
     """Symmetric matrices of parts of the half pitch.
 

@@ -44,9 +44,9 @@ def _with(basis: SymmetricBasis, pieces: Pieces, known: np.ndarray, least: np.nd
 
 
 def _problem(basis: SymmetricBasis, problem: ProblemBasis, less: sp.csr_array) -> ProblemBasis:
-    space = problem.space
+    space, M = problem.sector.space, problem.sector.M
     soft = sp.csr_array(problem.soft + space.copies * space.project(less))
-    values, vectors = modes_below(soft, problem.M, REACH * basis.highest_hz, len(problem.values) + 2)
+    values, vectors = modes_below(soft, M, REACH * basis.highest_hz, len(problem.values) + 2)
     vectors = vectors / np.sqrt(values + basis.shift)
-    drawn = probes(soft, problem.M, basis.shift, space.order)
-    return replace(extended(problem, vectors, basis.shift, PART), soft=soft, probes=drawn)
+    drawn = probes(soft, M, basis.shift, space.order)
+    return replace(extended(problem, vectors, PART), soft=soft, probes=drawn)

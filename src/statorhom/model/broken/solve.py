@@ -13,20 +13,24 @@ from statorhom.errors import SolverError
 from statorhom.model.broken.basis import PROBES, SymmetricBasis
 from statorhom.model.broken.change import Change, PieceChange
 from statorhom.model.broken.coupling import Coupled, couple
+from statorhom.model.broken.dense_modes import lowest_coupled
 from statorhom.model.broken.enrich import enriched
 from statorhom.model.broken.soften import softened
 from statorhom.model.eigen import frequency_hz
-from statorhom.model.reduced import lowest_pairs
 from statorhom.model.stator_mode import RIGID_HZ
 from statorhom.model.supported_shapes import ShapePart, SupportedModes
 
 TOLERANCE = 1e-3  # relative error of every frequency in the band
+EXPECTED = 1.2  # eigenvalues of the basis up to this many times the band's end tell about how many modes there are
 ROUNDS = 8  # enrichments before giving up
+# The first enrichment leaves out directions that would lower the frequencies together by less than this part of the
+# tolerance, the next one by its square.
+NEGLIGIBLE = 0.3
 CONFIDENCE = 0.95  # of the error estimates
 DEPENDENT = 1e-10  # part of its mass by which a static response must differ from the basis
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class BrokenModes:
     """Modes of a stator whose symmetry is broken, of unit modal mass, by ascending frequency.
 
@@ -63,14 +67,15 @@ class BrokenModes:
         parts = []
         size = len(self.basis.values)
         q, f = self.coordinates[:size], self.coordinates[size:]
-        responses = self.coupled.statics.responses
-        for problem, places, part in zip(self.basis.problems, self.basis.places, responses, strict=True):
+        own = self.coupled.statics
+        for number, (problem, places) in enumerate(zip(self.basis.problems, self.basis.places, strict=True)):
+            part = own.responses[number] if len(own) else {}
             used = [problem.vectors, *part.values()]
             families: list[np.ndarray | None] = [None, None]
             for sine, place in places.items():
                 forces = [f if other is sine else np.zeros_like(f) for other in part]
                 families[int(sine)] = np.vstack([q[place], *forces])
-            parts.append(ShapePart(problem.space, np.hstack(used), *families))
+            parts.append(ShapePart(problem.sector.space, np.hstack(used), *families))
         return SupportedModes(self.frequencies_hz, self.errors, tuple(parts))
 
 
@@ -95,10 +100,11 @@ def solve_broken(
         if tolerance is not None:
             basis = softened(basis, [c for c in changes if isinstance(c, PieceChange)])
         modes = _solve(basis, changes)
-        for _ in range(ROUNDS):
+        for trial in range(1, ROUNDS + 1):
             if tolerance is None or np.all(modes.errors < tolerance):
                 return modes
-            basis = enriched(basis, modes.coupled, modes.eigenvalues, modes.coordinates, tolerance)
+            least = NEGLIGIBLE**trial * tolerance
+            basis = enriched(basis, modes.coupled, modes.eigenvalues, modes.coordinates, least)
             modes = _solve(basis, changes)
     if np.any(modes.errors >= tolerance):
         raise SolverError(
@@ -109,19 +115,22 @@ def solve_broken(
 
 def _solve(basis: SymmetricBasis, changes: Sequence[Change]) -> BrokenModes:
     coupled = couple(basis, changes)
-    values, x = _eigenpairs(coupled, len(basis.values), (2 * np.pi * basis.highest_hz) ** 2)
+    values, x = _eigenpairs(coupled, basis)
     keep = frequency_hz(values) > RIGID_HZ
     values, x = values[keep], x[:, keep]
     return BrokenModes(basis, coupled, values, x, _errors(basis, coupled, values, x))
 
 
-def _eigenpairs(coupled: Coupled, size: int, top: float) -> tuple[np.ndarray, np.ndarray]:
+def _eigenpairs(coupled: Coupled, basis: SymmetricBasis) -> tuple[np.ndarray, np.ndarray]:
     K, M = coupled.K, coupled.M
-    change = _orthogonal(coupled, size)
+    top = (2 * np.pi * basis.highest_hz) ** 2
+    # softer pieces bring modes down into the band
+    expected = int(np.count_nonzero(basis.values < EXPECTED * top)) + 8
+    change = _orthogonal(coupled, len(basis.values))
     if change is not None:
         K, M = change.T @ K @ change, change.T @ M @ change
     try:
-        values, x = lowest_pairs((K + K.T) / 2, (M + M.T) / 2, top)
+        values, x = lowest_coupled((K + K.T) / 2, (M + M.T) / 2, top, basis.shift, expected)
     except np.linalg.LinAlgError:
         raise SolverError("the changes leave a mass that is not positive; check their magnitudes") from None
     return values, x if change is None else change @ x

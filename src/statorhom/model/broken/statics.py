@@ -1,28 +1,31 @@
 """Static responses of the symmetric stator to unit loads on the motions that springs and masses act on.
 
-Y = (K + σM)⁻¹ Lᵀ over all harmonics: one solve per problem, motion and family. With them in the basis a spring's or a
-lump's own local field is exact, and modes above the cut count only by their inertia.
+Y = (K + σM)⁻¹ Lᵀ over all harmonics. With them in the basis a spring's or a lump's own local field is exact, and modes
+above the cut count only by their inertia. Every product of Y comes from those of the surface's unit loads, which are
+solved once per problem (`statorhom.model.broken.sector`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import scipy.sparse as sp
 from scipy.linalg import block_diag
 
 from statorhom.model.broken.basis import ProblemBasis, SymmetricBasis
 from statorhom.model.broken.change import Attachment
+from statorhom.model.broken.sector import Sector
 from statorhom.model.broken.waves import Waves
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
 DEPENDENT = 1e-12  # part of the largest eigenvalue below which a motion carries neither spring nor mass
 
+Loads = Mapping[bool, np.ndarray]
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, eq=False)
 class Statics:
     """All attachments together, on the motions L that carry springs or masses.
 
@@ -30,15 +33,13 @@ class Statics:
     ----------
     basis : of the symmetric stator.
     stiffness, mass : (a, a) of the attachments between the motions.
-    loads : per problem: family → (m, a) coordinates of unit loads Lᵀ.
-    responses : per problem: family → (m, a) coordinates of Y.
+    loads : per problem: family → (s, a) unit loads Lᵀ on the coordinates that move the surface.
     """
 
     basis: SymmetricBasis
     stiffness: np.ndarray
     mass: np.ndarray
-    loads: tuple[Mapping[bool, np.ndarray], ...]
-    responses: tuple[Mapping[bool, np.ndarray], ...]
+    loads: tuple[Loads, ...]
 
     def __len__(self) -> int:
         return len(self.stiffness)
@@ -46,63 +47,64 @@ class Statics:
     @cached_property
     def rows(self) -> np.ndarray:
         """LW of the basis, (a, coordinates)."""
-        return self._against("vectors", self.loads, mass=False).T
+        return self._stacked(lambda p: p.vectors[p.sector.loaded].T).T
 
     @cached_property
     def products(self) -> np.ndarray:
         """WᵀMY, (coordinates, a)."""
-        return self._against("vectors", self.responses, mass=True)
+        return self._stacked(lambda p: p.surface_products[0])
 
     @cached_property
     def probed(self) -> tuple[np.ndarray, np.ndarray]:
         """ζᵀLᵀ and ζᵀMY of the probes, (probes, a) each."""
-        return self._against("probes", self.loads, mass=False), self._against("probes", self.responses, mass=True)
+        return self._stacked(lambda p: p.probes[p.sector.loaded].T), self._stacked(lambda p: p.surface_products[1])
 
     @cached_property
     def flexibility(self) -> np.ndarray:
         """LY, (a, a)."""
-        return self._within(self.loads, None)
+        return self._summed(lambda s: s.responses[s.loaded])
 
     @cached_property
     def inertia(self) -> np.ndarray:
         """YᵀMY, (a, a)."""
-        return self._within(self.responses, "M")
+        return self._summed(lambda s: s.inertia)
+
+    @cached_property
+    def responses(self) -> tuple[Loads, ...]:
+        """Per problem: family → (m, a) coordinates of Y."""
+        pairs = zip(self.basis.problems, self.loads, strict=True)
+        return tuple({sine: p.sector.responses @ load for sine, load in loads.items()} for p, loads in pairs)
 
     @cached_property
     def waves(self) -> tuple[Waves, np.ndarray]:
         """The responses as columns of waves, and the coordinates (columns, a) of each response."""
-        shapes, order, chosen, units = [], [], {False: [0][:0], True: [0][:0]}, {False: [], True: []}
-        count = 0
+        shapes, order, chosen, count = [], [], {False: np.empty(0, int), True: np.empty(0, int)}, len(self)
         for problem, parts in zip(self.basis.problems, self.responses, strict=True):
             for sine, part in parts.items():
-                shapes.append(problem.space.expand(part))
-                order += [problem.space.order] * len(self)
-                chosen[sine] = [*chosen[sine], *range(count, count + len(self))]
-                units[sine].append(np.eye(len(self)))
-                count += len(self)
-        slots = self.basis.mesh.slots
+                chosen[sine] = np.r_[chosen[sine], len(shapes) * count + np.arange(count)]
+                shapes.append(problem.sector.space.expand(part))
+                order.append(problem.sector.space.order)
         columns = Waves(
-            np.hstack(shapes), np.array(order), np.array(chosen[False], int), np.array(chosen[True], int), slots
+            np.hstack(shapes), np.repeat(order, count), chosen[False], chosen[True], self.basis.mesh.slots
         )
-        return columns, np.vstack([*units[False], *units[True]])
+        return columns, np.tile(np.eye(count), (len(shapes), 1))
 
-    def _against(
-        self, name: str, parts: Sequence[Mapping[bool, np.ndarray]], *, mass: bool
-    ) -> np.ndarray:
+    def _stacked(self, products: Callable[[ProblemBasis], np.ndarray]) -> np.ndarray:
+        """Products (…, s) of every problem's surface times the loads, as rows of all coordinates."""
         blocks: dict[bool, list[np.ndarray]] = {False: [], True: []}
-        for problem, part in zip(self.basis.problems, parts, strict=True):
-            left = getattr(problem, name)
-            left = problem.M @ left if mass else left
-            for sine, columns in part.items():
-                blocks[sine].append(left.T @ columns)
+        for problem, loads in zip(self.basis.problems, self.loads, strict=True):
+            for sine, load in loads.items():
+                blocks[sine].append(products(problem) @ load)
         return np.vstack([*blocks[False], *blocks[True]])
 
-    def _within(self, parts: Sequence[Mapping[bool, np.ndarray]], name: str | None) -> np.ndarray:
+    def _summed(self, products: Callable[[Sector], np.ndarray]) -> np.ndarray:
         total = np.zeros((len(self), len(self)))
-        for problem, left, right in zip(self.basis.problems, parts, self.responses, strict=True):
-            for sine, columns in left.items():
-                other = right[sine] if name is None else getattr(problem, name) @ right[sine]
-                total += columns.T @ other
+        for problem, loads in zip(self.basis.problems, self.loads, strict=True):
+            both = np.hstack(list(loads.values()))
+            images = products(problem.sector) @ both
+            for first in range(0, both.shape[1], max(len(self), 1)):
+                part = slice(first, first + len(self))
+                total += both[:, part].T @ images[:, part]
         return (total + total.T) / 2
 
 
@@ -111,31 +113,28 @@ def statics(basis: SymmetricBasis, attachments: Sequence[Attachment]) -> Statics
     stiffness = block_diag(*[a.stiffness for a in attachments]) if attachments else np.zeros((0, 0))
     mass = block_diag(*[a.mass for a in attachments]) if attachments else np.zeros((0, 0))
     used = _carrying(stiffness, mass)
-    loads, responses = [], []
-    for problem, solve in zip(basis.problems, basis.solvers, strict=True):
-        rows = _rows(problem, attachments)
-        unit = {sine: used.T @ (rows.imag if sine else rows.real) for sine in problem.families}
-        loads.append({sine: np.ascontiguousarray(load.T) for sine, load in unit.items()})
-        responses.append({sine: solve(load) if load.size else load for sine, load in loads[-1].items()})
-    return Statics(basis, used.T @ stiffness @ used, used.T @ mass @ used, tuple(loads), tuple(responses))
+    loads = tuple(_loads(problem.sector, attachments, used) for problem in basis.problems)
+    return Statics(basis, used.T @ stiffness @ used, used.T @ mass @ used, loads)
 
 
 def _carrying(stiffness: np.ndarray, mass: np.ndarray) -> np.ndarray:
     """Orthonormal combinations (b, a) of the motions that carry a spring or a mass."""
-    parts = [np.abs(m).max(initial=0.0) for m in (stiffness, mass)]
-    total = sum((m / p for m, p in zip((stiffness, mass), parts, strict=True) if p > 0.0), np.zeros_like(mass))
+    total = np.zeros_like(mass)
+    for part in (stiffness, mass):
+        total += part / max(np.abs(part).max(initial=0.0), np.finfo(float).tiny)
     values, vectors = np.linalg.eigh(total)
     return np.asarray(vectors[:, values > DEPENDENT * values.max(initial=0.0)])
 
 
-def _rows(problem: ProblemBasis, attachments: Sequence[Attachment]) -> np.ndarray:
-    """Complex rows (b, m): their real part is the motion under cosine, their imaginary part under sine shapes."""
-    space = problem.space
-    found = [np.zeros((0, space.size), dtype=complex)]
+def _loads(sector: Sector, attachments: Sequence[Attachment], used: np.ndarray) -> Loads:
+    """Unit loads on the motions; the motion's real part belongs to cosine, its imaginary part to sine shapes."""
+    found = [np.zeros((0, len(sector.loaded)), dtype=complex)]
     for a in attachments:
-        local = (a.points.matrix @ space.real).toarray() + 1j * (a.points.matrix @ space.imaginary).toarray()
+        local = a.points.matrix[:, sector.surface] @ sector.moved
         mirrored = np.repeat(a.points.mirrored, 3)[:, None]
         sign = np.tile(_MIRROR, len(a.points))[:, None]
-        turn = np.exp(2j * np.pi * space.order / space.slots * np.repeat(a.points.pitch, 3))[:, None]
+        pitch = np.repeat(a.points.pitch, 3)[:, None]
+        turn = np.exp(2j * np.pi * sector.space.order / sector.space.slots * pitch)
         found.append(a.rows @ (np.where(mirrored, np.conj(local) * sign, local) * turn))
-    return np.vstack(found)
+    rows = used.T @ np.vstack(found)
+    return {sine: np.ascontiguousarray((rows.imag if sine else rows.real).T) for sine in sector.families}

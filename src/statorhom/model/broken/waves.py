@@ -16,7 +16,7 @@ from statorhom.model.surface import SurfacePoints
 _MIRROR = np.array([1.0, -1.0, 1.0])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Waves:
     """Columns of all harmonics; coordinates count the cosine families first, then the sine families.
 

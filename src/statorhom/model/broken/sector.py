@@ -1,0 +1,82 @@
+"""One harmonic problem of the symmetric stator, and how its outer surface answers static loads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+
+from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.model.eigen import Solve, factorize
+from statorhom.model.harmonic import Harmonic
+from statorhom.model.surface import TOLERANCE, surface_radius
+
+
+@dataclass(frozen=True, eq=False)
+class Sector:
+    """A harmonic problem.
+
+    Parameters
+    ----------
+    space : the problem.
+    K, M : of the problem times its copies, so that yᵀMy is the whole stator's.
+    shift : σ of the static responses (rad²/s²).
+    surface : displacements of the half pitch that lie on the outer surface, ascending.
+    """
+
+    space: Harmonic
+    K: sp.csr_array
+    M: sp.csr_array
+    shift: float
+    surface: np.ndarray
+
+    @property
+    def families(self) -> tuple[bool, ...]:
+        """The shapes of a column: False for the cosine, True for the sine family."""
+        return {"pair": (False, True), "even": (False,), "odd": (True,)}[self.space.parity]
+
+    @cached_property
+    def solve(self) -> Solve:
+        """(K + σM)⁻¹."""
+        return factorize(sp.csr_array(self.K + self.shift * self.M))
+
+    @cached_property
+    def trace(self) -> sp.csr_array:
+        """(d, m) complex sparse: displacements of the surface by the coordinates."""
+        return sp.csr_array(self.space.real[self.surface] + 1j * self.space.imaginary[self.surface])
+
+    @cached_property
+    def loaded(self) -> np.ndarray:
+        """Coordinates that move the surface."""
+        return np.unique(self.trace.indices)
+
+    @cached_property
+    def moved(self) -> np.ndarray:
+        """(d, s) complex: displacements of the surface by these coordinates."""
+        return np.asarray(self.trace[:, self.loaded].toarray())
+
+    @cached_property
+    def responses(self) -> np.ndarray:
+        """(m, s) static responses to unit loads on these coordinates."""
+        loads = np.zeros((self.space.size, len(self.loaded)))
+        loads[self.loaded, np.arange(len(self.loaded))] = 1.0
+        return np.asarray(self.solve(loads))
+
+    @cached_property
+    def inertial(self) -> np.ndarray:
+        """(m, s) of M times the static responses."""
+        return np.asarray(self.M @ self.responses)
+
+    @cached_property
+    def inertia(self) -> np.ndarray:
+        """(s, s) mass products of the static responses."""
+        return np.asarray(self.responses.T @ self.inertial)
+
+
+def surface_dofs(mesh: HalfPitchMesh) -> np.ndarray:
+    """Displacements of the half pitch's nodes on the outer surface."""
+    radius = surface_radius(mesh)
+    nodes = np.flatnonzero(np.abs(np.hypot(*mesh.nodes[:, :2].T) - radius) < TOLERANCE * radius)
+    return np.asarray((3 * nodes[:, None] + np.arange(3)).ravel())
