@@ -29,13 +29,12 @@ from statorhom.mesh.density import COARSEST
 from statorhom.model.affine import Material, Materials, assemble, hooke_coefficients
 from statorhom.model.assembly import block_pattern, chunks, mass_blocks, node_blocks, stiffness_blocks
 from statorhom.model.broken.attachments import lump, springs
-from statorhom.model.broken.basis import SymmetricBasis, symmetric_basis
+from statorhom.model.broken.basis import symmetric_basis
 from statorhom.model.broken.cells import cells
 from statorhom.model.broken.change import Attachment, Change, PieceChange
 from statorhom.model.broken.pieces import elements_in
-from statorhom.model.broken.solve import BrokenModes, solve_broken
+from statorhom.model.broken.solve import solve_broken
 from statorhom.model.broken.variations import arc, region_stiffness
-from statorhom.model.broken.waves import Waves
 from statorhom.model.eigen import SHIFT, frequency_hz
 from statorhom.model.element import gauss_table
 from statorhom.model.stator_mode import RIGID_HZ
@@ -95,7 +94,7 @@ class Loose:
             place = cells(mesh, elements_in(mesh, ("winding",)))
             self.pieces[id(mesh)] = region_stiffness(mesh, materials(), ("winding",)), place
         pieces, place = self.pieces[id(mesh)]
-        return [arc(mesh, pieces, place, angle, angle + np.pi / 2, 0.1)]
+        return [arc(pieces, place, angle, angle + np.pi / 2, 0.1)]
 
 
 class Whole:
@@ -217,7 +216,9 @@ def run(case: Case) -> dict[str, Any]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--refinement", type=int, choices=(1, 2), default=2, help="1: 26 k … 50 k, 2: 143 k")
     parser.add_argument("--figures", type=Path, default=FIGURES)
     options = parser.parse_args()

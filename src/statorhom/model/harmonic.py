@@ -132,8 +132,11 @@ def _copies(
 
 def _mirror_images(mesh: HalfPitchMesh) -> np.ndarray | None:
     """Node at the mirror image of each node about the core's middle, None where the ends differ."""
-    mirrored = mesh.nodes * [1.0, 1.0, -1.0] + [0.0, 0.0, mesh.length]
-    distance, image = cKDTree(mesh.nodes).query(mirrored)
+    # nodes of two parts may lie on each other
+    part = np.full(len(mesh.nodes), len(mesh.regions))
+    np.minimum.at(part, mesh.elements, mesh.region[:, None])
+    tagged = np.column_stack([mesh.nodes, part])
+    distance, image = cKDTree(tagged).query(tagged * [1.0, 1.0, -1.0, 1.0] + [0.0, 0.0, mesh.length, 0.0])
     if distance.max() > TOLERANCE or not _same_regions(mesh, image):
         return None
     return np.asarray(image)

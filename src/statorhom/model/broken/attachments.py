@@ -18,7 +18,9 @@ def springs(mesh: HalfPitchMesh, held: HeldPoints) -> Attachment:
     return Attachment(points, np.eye(len(stiffness)), stiffness, np.zeros_like(stiffness))
 
 
-def point_springs(mesh: HalfPitchMesh, angles: np.ndarray, z: np.ndarray, stiffness: np.ndarray) -> Attachment:
+def point_springs(
+    mesh: HalfPitchMesh, angles: np.ndarray, z: np.ndarray, stiffness: np.ndarray
+) -> Attachment:
     """Springs to the ground at points of the outer surface, as of a suspension.
 
     Parameters
@@ -55,13 +57,16 @@ def footed_lump(
     # the points' positions from the foot's centre and their axes, both in the centre's axes (r, θ, z)
     position = np.column_stack([radius * (np.cos(turn) - 1), radius * np.sin(turn), foot * up])
     rigid = np.zeros((3 * len(turn), 6))
-    for i, (t, (a, b, c)) in enumerate(zip(turn, position, strict=True)):
+    for i, (t, p) in enumerate(zip(turn, position, strict=True)):
         axes = np.array([[np.cos(t), np.sin(t), 0.0], [-np.sin(t), np.cos(t), 0.0], [0.0, 0.0, 1.0]])
-        spin = np.array([[0.0, c, -b], [-c, 0.0, a], [b, -a, 0.0]])
-        rigid[3 * i : 3 * i + 3] = axes @ np.hstack([np.eye(3), spin])
-    mass = np.zeros((6, 6))
-    offset = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, -height], [0.0, height, 0.0]])
-    motion = np.hstack([np.eye(3), offset.T])
-    mass += mass_kg * motion.T @ motion
+        rigid[3 * i : 3 * i + 3] = axes @ _rigid_motion(p)
+    centre = _rigid_motion(np.array([height, 0.0, 0.0]))
+    mass = mass_kg * centre.T @ centre
     mass[3:, 3:] += mass_kg * foot**2 / 6 * np.eye(3)
     return Attachment(points, np.linalg.pinv(rigid), np.zeros((6, 6)), mass)
+
+
+def _rigid_motion(position: np.ndarray) -> np.ndarray:
+    """Motion (3, 6) of a point under three translations and three small rotations about the origin."""
+    a, b, c = position
+    return np.hstack([np.eye(3), [[0.0, c, -b], [-c, 0.0, a], [b, -a, 0.0]]])

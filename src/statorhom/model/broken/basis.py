@@ -9,7 +9,7 @@ symmetric stator that is nowhere stiffer than any broken one (`statorhom.model.b
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -29,7 +29,9 @@ MARGIN = 2.0  # modes reach this much higher than the band
 FIRST_GUESS = 10  # modes of a harmonic's first problem
 PROBES = 8  # per problem
 
-Mapper = Callable[[Callable[[int], "tuple[ProblemBasis, ...]"], Iterable[int]], Iterable["tuple[ProblemBasis, ...]"]]
+Mapper = Callable[
+    [Callable[[int], "tuple[ProblemBasis, ...]"], Iterable[int]], Iterable["tuple[ProblemBasis, ...]"]
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,12 +131,22 @@ class SymmetricBasis:
             found.append(place)
         return tuple(found)
 
+    def truncated(self, cut_hz: float) -> SymmetricBasis:
+        """Only the vectors up to a frequency: for signatures, or for a coarser solution."""
+        top = (2 * np.pi * cut_hz) ** 2
+        problems = []
+        for p in self.problems:
+            count = int(np.count_nonzero(p.values <= top))
+            problems.append(replace(p, values=p.values[:count], vectors=p.vectors[:, :count]))
+        return replace(self, problems=tuple(problems), cut_hz=min(cut_hz, self.cut_hz), grams=GramCache())
+
     def _waves(self, vectors: list[np.ndarray]) -> Waves:
         counts = [v.shape[1] for v in vectors]
         numbers = np.split(np.arange(sum(counts)), np.cumsum(counts)[:-1])
         chosen = {
             sine: np.concatenate(
-                [np.empty(0, int)] + [n for n, p in zip(numbers, self.problems, strict=True) if sine in p.sector.families]
+                [np.empty(0, int)]
+                + [n for n, p in zip(numbers, self.problems, strict=True) if sine in p.sector.families]
             )
             for sine in (False, True)
         }

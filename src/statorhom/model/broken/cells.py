@@ -9,21 +9,20 @@ import numpy as np
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 
 _TURN = 2 * np.pi
+LEAST = 1e-9  # rad
 
 
-@dataclass(frozen=True)
-class Cells:
-    """Bounding boxes of some elements in cylindrical coordinates.
+@dataclass(frozen=True, eq=False)
+class Sectors:
+    """Angles that pieces of the half pitch take.
 
     Parameters
     ----------
-    radius, angle, z : (e, 2) lower and upper end in the half pitch (m, rad, m).
+    angle : (e, 2) lower and upper end in the half pitch (rad).
     slots : N.
     """
 
-    radius: np.ndarray
     angle: np.ndarray
-    z: np.ndarray
     slots: int
 
     @property
@@ -35,13 +34,31 @@ class Cells:
         return np.where((np.arange(2 * self.slots) % 2 == 1)[None, :, None], mirrored, straight)
 
     def share_of_arc(self, start: float, end: float) -> np.ndarray:
-        """Share (e, 2 N) of every element's angle that lies between two angles (rad)."""
+        """Share (e, 2 N) of every piece's angle that lies between two angles (rad)."""
         angles = self.angles
-        low, high = angles[..., 0], angles[..., 1]
+        # what has no width of its own is either within or not
+        low, high = angles[..., 0] - LEAST, angles[..., 1] + LEAST
         total = np.zeros(low.shape)
-        for turn in range(int(np.floor((low.min() - end) / _TURN)), int(np.ceil((high.max() - start) / _TURN)) + 1):
-            total += np.maximum(np.minimum(high, end + turn * _TURN) - np.maximum(low, start + turn * _TURN), 0.0)
+        for turn in range(
+            int(np.floor((low.min() - end) / _TURN)), int(np.ceil((high.max() - start) / _TURN)) + 1
+        ):
+            total += np.maximum(
+                np.minimum(high, end + turn * _TURN) - np.maximum(low, start + turn * _TURN), 0.0
+            )
         return np.asarray(total / (high - low))
+
+
+@dataclass(frozen=True, eq=False)
+class Cells(Sectors):
+    """Bounding boxes of some elements in cylindrical coordinates.
+
+    Parameters
+    ----------
+    radius, z : (e, 2) lower and upper end (m).
+    """
+
+    radius: np.ndarray
+    z: np.ndarray
 
     def share_of_depth(self, inner: float, outer: float) -> np.ndarray:
         """Share (e,) of every element's radial extent that lies between two radii (m)."""
@@ -58,4 +75,4 @@ def cells(mesh: HalfPitchMesh, elements: np.ndarray) -> Cells:
         # of the corners: mid-sides on arcs bulge by a trace
         return np.stack([values[:, :8].min(axis=1), values[:, :8].max(axis=1)], axis=1)
 
-    return Cells(ends(radius), ends(angle), ends(nodes[..., 2]), mesh.slots)
+    return Cells(ends(angle), mesh.slots, ends(radius), ends(nodes[..., 2]))

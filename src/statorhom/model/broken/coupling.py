@@ -24,15 +24,15 @@ class Coupled:
     statics : of the attachments.
     pieces : changes of pieces.
     K, M : (n, n).
-    probed_K, probed_M : (probes, n) of ζᵀK and ζᵀM.
+    probe_stiffness, probe_mass : (probes, n) of ζᵀK and ζᵀM.
     """
 
     statics: Statics
     pieces: tuple[PieceChange, ...]
     K: np.ndarray
     M: np.ndarray
-    probed_K: np.ndarray
-    probed_M: np.ndarray
+    probe_stiffness: np.ndarray
+    probe_mass: np.ndarray
 
 
 def couple(basis: SymmetricBasis, changes: Sequence[Change]) -> Coupled:
@@ -44,19 +44,19 @@ def couple(basis: SymmetricBasis, changes: Sequence[Change]) -> Coupled:
     K = np.block([[np.diag(basis.values), mixed], [mixed.T, G - sigma * H]])
     M = np.block([[np.eye(len(basis.values)), products], [products.T, H]])
     (zK, zM), (zL, zY) = basis.probed, own.probed
-    probed_K, probed_M = np.hstack([zK, zL - sigma * zY]), np.hstack([zM, zY])
+    probe_stiffness, probe_mass = np.hstack([zK, zL - sigma * zY]), np.hstack([zM, zY])
     motion = np.hstack([rows, G])
     K += motion.T @ own.stiffness @ motion
     M += motion.T @ own.mass @ motion
-    probed_K += zL @ (own.stiffness @ motion)
-    probed_M += zL @ (own.mass @ motion)
+    probe_stiffness += zL @ (own.stiffness @ motion)
+    probe_mass += zL @ (own.mass @ motion)
     for change in pieces:
-        for total, probed, part in ((K, probed_K, change.stiffness), (M, probed_M, change.mass)):
+        for total, probed, part in ((K, probe_stiffness, change.stiffness), (M, probe_mass, change.mass)):
             if part is not None:
                 inner, outer = piece_matrices(basis, own, part, change.weights)
                 total += inner
                 probed += outer
-    return Coupled(own, pieces, K, M, probed_K, probed_M)
+    return Coupled(own, pieces, K, M, probe_stiffness, probe_mass)
 
 
 def piece_matrices(

@@ -108,7 +108,9 @@ def _applied(
     if len(coupled.statics):
         columns, units = coupled.statics.waves
         motion += columns.in_copies(dofs, units @ x[size:])
-    return np.stack([part.matrix(w) @ u if np.any(w) else 0 * u for w, u in zip(weights.T, motion, strict=True)])
+    return np.stack(
+        [part.matrix(w) @ u if np.any(w) else 0 * u for w, u in zip(weights.T, motion, strict=True)]
+    )
 
 
 def _folded(problem: ProblemBasis, forces: Mapping[bool, np.ndarray], sine: bool) -> np.ndarray:
@@ -118,7 +120,8 @@ def _folded(problem: ProblemBasis, forces: Mapping[bool, np.ndarray], sine: bool
     straight, mirrored = (np.tensordot(turn, forces[side], axes=1) for side in (False, True))
     if sine:
         return np.asarray(
-            space.imaginary.T @ (straight.real - mirrored.real) - space.real.T @ (straight.imag + mirrored.imag)
+            space.imaginary.T @ (straight.real - mirrored.real)
+            - space.real.T @ (straight.imag + mirrored.imag)
         )
     return np.asarray(
         space.real.T @ (straight.real + mirrored.real) + space.imaginary.T @ (straight.imag - mirrored.imag)

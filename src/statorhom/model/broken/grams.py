@@ -1,8 +1,8 @@
 """Pieces of all copies between the waves of all harmonics.
 
-With a = û e^{i k h α} and b = û' e^{i k h' α} a piece k_e gives Re(a)ᵀ k_e Re(b) = ½ Re(aᴴ k_e b + aᵀ k_e b), and alike
-for the imaginary parts: of the slots only the sums of the weights times e^{i k (h' ∓ h) α} enter. The products ûᴴ k_e û'
-and ûᵀ k_e û' of the half pitch are made once per group of pieces that always have the same weights.
+With a = û e^{i k h α} and b = û' e^{i k h' α} a piece k_e gives Re(a)ᵀ k_e Re(b) = ½ Re(aᴴ k_e b + aᵀ k_e b), and
+alike for the imaginary parts: of the slots only the sums of the weights times e^{i k (h' ∓ h) α} enter. The products
+ûᴴ k_e û' and ûᵀ k_e û' of the half pitch are made once per group of pieces that always have the same weights.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ class Gram:
 class GramCache:
     """Products that were made before, the latest ones."""
 
-    known: OrderedDict[tuple[int, ...], tuple[Pieces, Gram]] = field(default_factory=OrderedDict)
+    known: OrderedDict[tuple[int, int, int, bytes], tuple[Pieces, Gram]] = field(default_factory=OrderedDict)
 
     def gram(self, pieces: Pieces, group: np.ndarray, rows: Waves, columns: Waves) -> Gram:
         """Products of the group (numbers of pieces)."""
-        key = (id(pieces), id(rows), id(columns), hash(group.tobytes()), len(group))
+        key = (id(pieces), id(rows), id(columns), group.tobytes())
         if key not in self.known:
             # the pieces are kept too, so that their id stays theirs
             self.known[key] = (pieces, _gram(pieces.take(group), rows, columns))
@@ -43,9 +43,7 @@ class GramCache:
         return self.known[key][1]
 
 
-def project(
-    cache: GramCache, pieces: Pieces, weights: np.ndarray, rows: Waves, columns: Waves
-) -> np.ndarray:
+def project(cache: GramCache, pieces: Pieces, weights: np.ndarray, rows: Waves, columns: Waves) -> np.ndarray:
     """Weighted pieces of all copies between coordinates, (len(rows), len(columns)).
 
     Parameters

@@ -20,7 +20,7 @@ from statorhom.model.broken.pieces import Pieces
 from statorhom.model.eigen import modes_below
 
 SLIGHT = 0.3  # a piece that keeps more than 1 - this of the stiffness it has in the basis needs no new probes
-REACH = 1.3  # the softest stator's modes that are added reach this much higher than the band
+REACH = 1.5  # the softest stator's modes that are added reach this much higher than the band
 PART = 1e-6  # of the energy scale of the band: new directions with less are left out
 
 

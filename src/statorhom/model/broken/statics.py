@@ -20,7 +20,7 @@ from statorhom.model.broken.sector import Sector
 from statorhom.model.broken.waves import Waves
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
-DEPENDENT = 1e-12  # part of the largest eigenvalue below which a motion carries neither spring nor mass
+DEPENDENT = 1e-24  # squared part of the largest stiffness or mass below which a motion carries neither
 
 Loads = Mapping[bool, np.ndarray]
 
@@ -57,7 +57,9 @@ class Statics:
     @cached_property
     def probed(self) -> tuple[np.ndarray, np.ndarray]:
         """ζᵀLᵀ and ζᵀMY of the probes, (probes, a) each."""
-        return self._stacked(lambda p: p.probes[p.sector.loaded].T), self._stacked(lambda p: p.surface_products[1])
+        return self._stacked(lambda p: p.probes[p.sector.loaded].T), self._stacked(
+            lambda p: p.surface_products[1]
+        )
 
     @cached_property
     def flexibility(self) -> np.ndarray:
@@ -78,7 +80,9 @@ class Statics:
     @cached_property
     def waves(self) -> tuple[Waves, np.ndarray]:
         """The responses as columns of waves, and the coordinates (columns, a) of each response."""
-        shapes, order, chosen, count = [], [], {False: np.empty(0, int), True: np.empty(0, int)}, len(self)
+        shapes: list[np.ndarray] = []
+        order: list[int] = []
+        chosen, count = {False: np.empty(0, int), True: np.empty(0, int)}, len(self)
         for problem, parts in zip(self.basis.problems, self.responses, strict=True):
             for sine, part in parts.items():
                 chosen[sine] = np.r_[chosen[sine], len(shapes) * count + np.arange(count)]
@@ -121,7 +125,8 @@ def _carrying(stiffness: np.ndarray, mass: np.ndarray) -> np.ndarray:
     """Orthonormal combinations (b, a) of the motions that carry a spring or a mass."""
     total = np.zeros_like(mass)
     for part in (stiffness, mass):
-        total += part / max(np.abs(part).max(initial=0.0), np.finfo(float).tiny)
+        unit = part / max(np.abs(part).max(initial=0.0), np.finfo(float).tiny)
+        total += unit @ unit.T
     values, vectors = np.linalg.eigh(total)
     return np.asarray(vectors[:, values > DEPENDENT * values.max(initial=0.0)])
 

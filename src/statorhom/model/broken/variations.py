@@ -8,12 +8,14 @@ import numpy as np
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Materials, hooke_coefficients
-from statorhom.model.broken.cells import Cells, cells
+from statorhom.model.broken.cells import Sectors, cells
 from statorhom.model.broken.change import PieceChange
 from statorhom.model.broken.pieces import Pieces, elements_in, mass_pieces, stiffness_pieces
 
 
-def strip(mesh: HalfPitchMesh, core: Pieces, angle: float, *, width: float, depth: float, ratio: float) -> PieceChange:
+def strip(
+    mesh: HalfPitchMesh, core: Pieces, angle: float, *, width: float, depth: float, ratio: float
+) -> PieceChange:
     """An axial strip of the back of the core whose stiffness differs; an element counts by its covered share.
 
     Parameters
@@ -29,7 +31,9 @@ def strip(mesh: HalfPitchMesh, core: Pieces, angle: float, *, width: float, dept
     return PieceChange(core, None, (ratio - 1.0) * inside)
 
 
-def wave(mesh: HalfPitchMesh, yoke: Pieces, angle: float, *, harmonic: int, amplitude: float, inner: float) -> PieceChange:
+def wave(
+    mesh: HalfPitchMesh, yoke: Pieces, angle: float, *, harmonic: int, amplitude: float, inner: float
+) -> PieceChange:
     """Stiffness of the back of the core times 1 + ε cos n(θ - α), by its mean over every element's angle.
 
     Parameters
@@ -46,12 +50,14 @@ def wave(mesh: HalfPitchMesh, yoke: Pieces, angle: float, *, harmonic: int, ampl
     return PieceChange(yoke, None, weights)
 
 
-def arc(mesh: HalfPitchMesh, pieces: Pieces, place: Cells, start: float, end: float, ratio: float) -> PieceChange:
+def arc(pieces: Pieces, place: Sectors, start: float, end: float, ratio: float) -> PieceChange:
     """Pieces whose stiffness is scaled between two angles (rad); one counts by its covered share."""
     return PieceChange(pieces, None, (ratio - 1.0) * place.share_of_arc(start, end))
 
 
-def gradient(mesh: HalfPitchMesh, pieces: Pieces, regions: tuple[str, ...], along: Callable[[np.ndarray], np.ndarray]) -> PieceChange:
+def gradient(
+    mesh: HalfPitchMesh, pieces: Pieces, regions: tuple[str, ...], along: Callable[[np.ndarray], np.ndarray]
+) -> PieceChange:
     """A stiffness that varies along the axis.
 
     Parameters

@@ -49,7 +49,9 @@ class Waves:
 
     def families(self, complex_rows: np.ndarray) -> np.ndarray:
         """Real rows (…, coordinates) of complex ones (…, w)."""
-        return np.concatenate([complex_rows.real[..., self.cosine], complex_rows.imag[..., self.sine]], axis=-1)
+        return np.concatenate(
+            [complex_rows.real[..., self.cosine], complex_rows.imag[..., self.sine]], axis=-1
+        )
 
     def spread(self, coordinates: np.ndarray) -> np.ndarray:
         """Complex weights (w, …) c such that the motion is Re(Σ c û e^{i k h α})."""
