@@ -29,7 +29,7 @@ ANGLE, HEIGHT = np.deg2rad(47.0), 0.06
 KINDS = {
     "stack": (lambda: stator_mesh(6), 9000.0),
     "wound": (lambda: stator_mesh(5, ("stack", "wound")), 4000.0),
-    "split": (lambda: split(stator_mesh(5, ("stack", "wound")), WOUND_PARTS), 4000.0),
+    "split": (lambda: split(stator_mesh(5, ("stack", "wound")), WOUND_PARTS), 3000.0),
 }
 
 
@@ -160,7 +160,12 @@ def solved(case):
     return changes, solve_broken(basis_of(kind), changes), sp.csr_array(K), sp.csr_array(M)
 
 
-@pytest.mark.parametrize("case", CASES)
+# a band that ends amid a crowd of modes of loose windings takes many enrichments
+SLOW = {"loose arc"}
+MARKED = [pytest.param(case, marks=[pytest.mark.slow] if case in SLOW else []) for case in CASES]
+
+
+@pytest.mark.parametrize("case", MARKED)
 def test_frequencies_are_the_whole_stators(case):
     highest_hz = KINDS[CASES[case][0]][1]
     _, found, K, M = solved(case)
@@ -176,7 +181,9 @@ def test_frequencies_are_the_whole_stators(case):
     assert error[worst] > 0.01 * found.errors[worst] - 1e-7  # nor is the estimate idle
 
 
-@pytest.mark.parametrize("case", ["lump", "two elastic lines", "soft strip", "debonded arc", "loose arc and lump"])
+@pytest.mark.parametrize(
+    "case", ["lump", "two elastic lines", "soft strip", "debonded arc", "loose arc and lump"]
+)
 def test_whole_shapes_are_orthonormal_and_store_their_eigenvalue(case):
     _, found, K, M = solved(case)
     half = found.basis.mesh
@@ -187,7 +194,7 @@ def test_whole_shapes_are_orthonormal_and_store_their_eigenvalue(case):
     )
 
 
-@pytest.mark.parametrize("case", ["stiff strip", "pressure gradient", "loose arc"])
+@pytest.mark.parametrize("case", ["stiff strip", "pressure gradient", "debonded arc"])
 def test_the_symmetric_modes_alone_are_known_to_be_too_few(case):
     changes, found, K, M = solved(case)
     plain = solve_broken(basis_of(CASES[case][0]), changes, tolerance=None)

@@ -83,7 +83,7 @@ def contact(mesh: HexMesh, regions: tuple[str, ...], normal: float, tangential: 
     Raises
     ------
     SolverError
-        If the regions touch nothing.
+        If the regions have no nodes of their own on a face of another part.
     """
     inside = np.isin(mesh.region, [mesh.regions.index(region) for region in regions])
     mine, others = (mesh.elements[side][:, FACES] for side in (inside, ~inside))
@@ -93,11 +93,13 @@ def contact(mesh: HexMesh, regions: tuple[str, ...], normal: float, tangential: 
     for faces in mine:
         for kind, face in enumerate(faces):
             twin = opposite.get(tuple(np.sort(place.ravel()[face])))
-            if twin is not None:
+            if twin is not None and not np.array_equal(np.sort(twin), np.sort(face)):
                 order = {place.ravel()[node]: node for node in twin}
                 pairs.append((kind, face, [order[place.ravel()[node]] for node in face]))
     if not pairs:
-        raise SolverError(f"the regions {', '.join(regions)} touch nothing that they could lose contact with")
+        raise SolverError(
+            f"the regions {', '.join(regions)} touch no other part with nodes of their own; split the mesh first"
+        )
     kinds, left, right = (np.array(column) for column in zip(*pairs, strict=True))
     matrices = np.empty((len(kinds), 48, 48))
     for kind in np.unique(kinds):

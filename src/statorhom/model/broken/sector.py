@@ -65,6 +65,11 @@ class Sector:
         return np.asarray(self.solve(loads))
 
     @cached_property
+    def flexibility(self) -> np.ndarray:
+        """(s, s) motion of the loaded coordinates in the static responses."""
+        return np.asarray(self.responses[self.loaded])
+
+    @cached_property
     def inertial(self) -> np.ndarray:
         """(m, s) of M times the static responses."""
         return np.asarray(self.M @ self.responses)

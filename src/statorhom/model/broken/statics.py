@@ -64,7 +64,7 @@ class Statics:
     @cached_property
     def flexibility(self) -> np.ndarray:
         """LY, (a, a)."""
-        return self._summed(lambda s: s.responses[s.loaded])
+        return self._summed(lambda s: s.flexibility)
 
     @cached_property
     def inertia(self) -> np.ndarray:

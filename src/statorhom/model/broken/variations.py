@@ -1,4 +1,8 @@
-"""Stiffness that differs around the stator or along it: strips, arcs, waves and gradients, element by element."""
+"""Stiffness that differs around the stator or along it: strips, arcs, waves and gradients, element by element.
+
+An element that is covered in part counts by its covered share, so that results are smooth in every angle and size;
+where within an element a feature lies is not resolved.
+"""
 
 from __future__ import annotations
 
