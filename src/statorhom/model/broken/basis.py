@@ -22,7 +22,7 @@ from statorhom.model.broken.grams import GramCache
 from statorhom.model.broken.pieces import Pieces
 from statorhom.model.broken.sector import Sector, surface_dofs
 from statorhom.model.broken.waves import Waves
-from statorhom.model.eigen import SHIFT, Solve, factorize, modes_below, symmetric_lu
+from statorhom.model.eigen import SHIFT, modes_below, symmetric_lu
 from statorhom.model.harmonic import all_orders, harmonic_spaces
 
 MARGIN = 2.0  # modes reach this much higher than the band
@@ -41,14 +41,14 @@ class ProblemBasis:
     Parameters
     ----------
     sector : the problem.
-    soft : K' of the softest symmetric stator, like K.
+    soft : the same problem of the softest symmetric stator.
     values : (w,) Ritz values of the vectors (rad²/s²).
     vectors : (m, w) coordinates of unit modal mass.
     probes : (m, t) random vectors with covariance (K' + σM)⁻¹.
     """
 
     sector: Sector
-    soft: sp.csr_array
+    soft: Sector
     values: np.ndarray
     vectors: np.ndarray
     probes: np.ndarray
@@ -56,11 +56,6 @@ class ProblemBasis:
     def __post_init__(self) -> None:
         for array in (self.values, self.vectors, self.probes):
             array.setflags(write=False)
-
-    @cached_property
-    def soft_solve(self) -> Solve:
-        """(K' + σM)⁻¹."""
-        return factorize(sp.csr_array(self.soft + self.sector.shift * self.sector.M))
 
     @cached_property
     def surface_products(self) -> tuple[np.ndarray, np.ndarray]:
@@ -185,7 +180,7 @@ class BasisTask:
                 expected = len(found[-1].values) + 2 if found else FIRST_GUESS
                 values, vectors = modes_below(K, M, self.cut_hz, expected)
                 sector = Sector(space, K, M, self.shift, self.surface)
-                found.append(ProblemBasis(sector, K, values, vectors, probes(K, M, self.shift, order)))
+                found.append(ProblemBasis(sector, sector, values, vectors, probes(K, M, self.shift, order)))
         return tuple(found)
 
 

@@ -34,7 +34,7 @@ def enriched(
     problems = []
     for number, problem in enumerate(basis.problems):
         # where pieces are softened the one is right inside and the other outside of them
-        solvers = [problem.sector.solve, problem.soft_solve] if basis.softest else [problem.sector.solve]
+        solvers = [problem.sector.solve, problem.soft.solve] if basis.softest else [problem.sector.solve]
         found = []
         for sine in problem.sector.families:
             residual = _residual(basis, coupled, number, sine, values, x) + _folded(problem, forces, sine)

@@ -45,8 +45,8 @@ def _with(basis: SymmetricBasis, pieces: Pieces, known: np.ndarray, least: np.nd
 
 def _problem(basis: SymmetricBasis, problem: ProblemBasis, less: sp.csr_array) -> ProblemBasis:
     space, M = problem.sector.space, problem.sector.M
-    soft = sp.csr_array(problem.soft + space.copies * space.project(less))
+    soft = sp.csr_array(problem.soft.K + space.copies * space.project(less))
     values, vectors = modes_below(soft, M, REACH * basis.highest_hz, len(problem.values) + 2)
     vectors = vectors / np.sqrt(values + basis.shift)
     drawn = probes(soft, M, basis.shift, space.order)
-    return replace(extended(problem, vectors, PART), soft=soft, probes=drawn)
+    return replace(extended(problem, vectors, PART), soft=replace(problem.soft, K=soft), probes=drawn)

@@ -1,0 +1,27 @@
+import numpy as np
+from small_stators import MATERIALS, stator_mesh
+
+from statorhom.model.affine import assemble
+from statorhom.model.broken.basis import symmetric_basis
+from statorhom.model.broken.prepare import prepared
+from statorhom.model.broken.solve import solve_broken
+from statorhom.model.broken.variations import region_stiffness, strip
+
+
+def test_a_prepared_basis_is_small_and_serves_other_places_and_strengths():
+    half = stator_mesh(6)
+    core, pitch = region_stiffness(half, MATERIALS, ("lamination",)), np.pi / 3
+
+    def change(offset, ratio):
+        return [strip(half, core, offset * pitch, width=0.15, depth=0.009, ratio=ratio)]
+
+    plain = symmetric_basis(assemble(half), MATERIALS, 9000.0)
+    ready = prepared(plain, [change(offset, ratio) for offset in (0.0, 0.3) for ratio in (0.3,)])
+    for place, ratio in ((2.0, 0.3), (-4.3, 0.4)):
+        found = solve_broken(ready, change(place, ratio), tolerance=None)
+        assert np.all(found.errors < 1e-3)
+        # a basis that was enriched for this place and strength alone stands for the truth
+        exact = solve_broken(plain, change(place, ratio), tolerance=1e-4)
+        assert len(exact) == len(found)
+        np.testing.assert_allclose(found.frequencies_hz, exact.frequencies_hz, rtol=1e-3)
+        assert len(ready.values) < len(exact.basis.values)
