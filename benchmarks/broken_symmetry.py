@@ -191,8 +191,8 @@ def run(case: Case) -> dict[str, Any]:
     ready, prepare = timed(lambda: prepared(basis, trainings))
     # other angles than those that the basis was prepared at, within the slot pitch too
     angles = 2.345 + pitch * np.linspace(0.0, 7.3, REPEATS)
-    solve_broken(ready, case.changes(half, angles[-1]))
-    runs = [timed(lambda a=a: solve_broken(ready, case.changes(half, a))) for a in angles]
+    solve_broken(ready, case.changes(half, angles[-1]), None)
+    runs = [timed(lambda a=a: solve_broken(ready, case.changes(half, a), None)) for a in angles]
     modes = runs[0][0]
     whole = Whole(half)
     (K, M), assembly = timed(lambda: whole.matrices(case.changes(half, angles[0])))
@@ -206,7 +206,7 @@ def run(case: Case) -> dict[str, Any]:
         "modes": len(modes),
         "coordinates": len(modes.coordinates),
         "largest_error": float(np.abs(error).max()),
-        "largest_estimate": float(modes.errors.max()),
+        "largest_estimate": float(max(run.errors.max() for run, _ in runs)),
         "basis_s": setup,
         "preparation_s": prepare,
         "solution_s": one,
@@ -235,7 +235,7 @@ def main() -> None:
     cases = [
         Case("lump of 0.1 kg", ("stack",), stack, lumped),
         Case("two elastic lines", ("stack",), stack, lines),
-        Case("loose winding over 90°", ("stack", "wound"), wound, loose, (0.0, 0.25, 0.5)),
+        Case("loose winding over 90°", ("stack", "wound"), wound, loose, (0.0, 0.25, 0.42)),
     ]
     found = []
     with threadpool_limits(limits=1):

@@ -2,6 +2,9 @@
 
 Enrichment finds what a change needs but brings much that it does not. The converged modes say what is needed: their
 parts in every problem, cosine and sine, span the same space at whatever pitch the change sits.
+
+Evaluate in it with `solve_broken(basis, changes, tolerance=None)`: every result still carries its error estimates.
+Modes above the band are not trained: let the band end somewhat higher than the highest mode that matters.
 """
 
 from __future__ import annotations
@@ -16,11 +19,13 @@ from statorhom.model.broken.change import Change
 from statorhom.model.broken.enrich import extended
 from statorhom.model.broken.solve import TOLERANCE, BrokenModes, solve_broken
 
-SPARE = 0.5  # of the tolerance: what the trainings are solved to, so that places between them meet it
+# Parts of the tolerance: what the trainings are solved to, and what the small basis keeps, so that places between
+# them meet it.
+SPARE, KEPT = 0.5, 0.8
 # Directions that would lower the trained frequencies by less than this part of the tolerance are left out first,
-# then those of a third of it, until the trainings are met.
+# then those of half of it, until the trainings are met.
 FIRST = 0.3
-TRIALS = 5
+TRIALS = 8
 
 
 def prepared(
@@ -44,11 +49,14 @@ def prepared(
         basis = solve_broken(basis, changes, aim).basis
     solved = [solve_broken(basis, changes, tolerance=None) for changes in trainings]
     for trial in range(TRIALS):
-        least = FIRST * tolerance / 3**trial
+        least = FIRST * tolerance / 2**trial
         problems = (_compressed(basis, i, p, solved, least) for i, p in enumerate(basis.problems))
         small = replace(basis, problems=tuple(problems), grams=type(basis.grams)())
         again = (solve_broken(small, changes, tolerance=None) for changes in trainings)
-        if all(len(a) == len(b) and np.all(a.errors < aim) for a, b in zip(again, solved, strict=True)):
+        if all(
+            len(a) == len(b) and np.all(a.errors < KEPT * tolerance)
+            for a, b in zip(again, solved, strict=True)
+        ):
             return small
     return basis
 

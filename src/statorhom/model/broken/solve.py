@@ -137,8 +137,11 @@ def _in_band(modes: BrokenModes) -> np.ndarray:
 
 
 def _within(modes: BrokenModes) -> BrokenModes:
-    count = int(np.count_nonzero(modes.frequencies_hz <= modes.basis.highest_hz))
-    values, x, errors = modes.eigenvalues[:count], modes.coordinates[:, :count], modes.errors[:count]
+    return _chosen(modes, modes.frequencies_hz <= modes.basis.highest_hz)
+
+
+def _chosen(modes: BrokenModes, keep: np.ndarray) -> BrokenModes:
+    values, x, errors = modes.eigenvalues[keep], modes.coordinates[:, keep], modes.errors[keep]
     return replace(modes, eigenvalues=values, coordinates=x, errors=errors)
 
 
