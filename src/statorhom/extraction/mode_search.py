@@ -1,0 +1,173 @@
+"""Finds as many modes as the data carry: fit, remove, add, window by window, until nothing changes.
+
+The number of modes follows from the Bayesian information criterion (Schwarz 1978): a mode must raise the
+likelihood by more than the price of its unknowns, a pole and one residue per point, with a misfit beyond the
+noise counted as noise.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from statorhom.extraction.clusters import cluster_lines, clusters, nearest, tiles
+from statorhom.extraction.point_grid import PointGrid
+from statorhom.extraction.pole_search import best_candidates, trial_poles
+from statorhom.extraction.window_fit import Modes, Window, WindowFit, fit_window, unit_part
+
+FloatArray = npt.NDArray[np.float64]
+ComplexArray = npt.NDArray[np.complex128]
+
+_SWEEPS = 6
+_MOST_NEW = 6  # modes per window and sweep
+_BINS_PER_BANDWIDTH = 12
+_ENOUGH_BINS = 400
+_HOPELESS = 0.3  # of the price: a candidate that promises less before its pole is optimized is left
+_SETTLED = 0.01  # bandwidths that a pole may still move
+
+
+@dataclass(frozen=True)
+class FittedWindow:
+    """A cluster of modes with its data and fit; `own` are its modes' places among all modes."""
+
+    lines: slice
+    window: Window
+    fit: WindowFit
+    neighbours: Modes
+    own: tuple[int, ...]
+
+
+class ModeSearch:
+    """State of a search over one grid: data, noise and the modes so far."""
+
+    def __init__(self, grid: PointGrid, sd: FloatArray, poles: ComplexArray, parts: ComplexArray) -> None:
+        self.unit = float(grid.omega[-1] ** 2)
+        self.grid = grid
+        self.variance = np.where(grid.measured, sd**2.0, np.inf)
+        self.modes = Modes(poles / self.unit, np.array([unit_part(p) for p in parts]).reshape(len(poles), -1))
+
+    def run(self) -> list[FittedWindow]:
+        """Sweep until the modes settle; the windows of the clusters with their last fits."""
+        for _ in range(_SWEEPS):
+            before = self.modes
+            self._sweep()
+            if _settled(before, self.modes):
+                break
+        return [self._fitted(own) for own in clusters(self.modes.poles)]
+
+    def _window(self, lines: slice) -> Window:
+        squared = self.grid.omega[lines] ** 2 / self.unit
+        size = self._bin(squared)
+        count = len(squared) // size * size
+        shape = (*self.grid.receptance.shape[:2], -1, size)
+        values = self.grid.receptance[..., lines][..., :count].reshape(shape).mean(axis=-1)
+        variance = self.variance[..., lines][..., :count].reshape(shape).mean(axis=-1) / size
+        return Window(squared[:count], values, 1.0 / variance, self.unit)
+
+    def _bin(self, squared: FloatArray) -> int:
+        """Lines of a bin: a small part of the narrowest bandwidth inside, and no more than a long window needs."""
+        poles = self.modes.poles[(self.modes.poles.real > squared[0]) & (self.modes.poles.real < squared[-1])]
+        spacing = (np.sqrt(squared[-1]) - np.sqrt(squared[0])) / (len(squared) - 1)
+        narrowest = float(np.min(poles.imag / np.sqrt(poles.real), initial=np.inf)) / spacing
+        return int(max(1, min(narrowest / _BINS_PER_BANDWIDTH, len(squared) / _ENOUGH_BINS)))
+
+    def _neighbours(self, own: list[int], lines: slice) -> Modes:
+        beside = nearest(self.modes.poles, own, lines, self.grid.omega / np.sqrt(self.unit))
+        return Modes(self.modes.poles[beside], self.modes.parts[beside])
+
+    def _fitted(self, own: list[int]) -> FittedWindow:
+        lines = cluster_lines(self.modes.poles[own], self.grid.omega / np.sqrt(self.unit))
+        window, neighbours = self._window(lines), self._neighbours(own, lines)
+        fit = fit_window(window, Modes(self.modes.poles[own], self.modes.parts[own]), neighbours)
+        return FittedWindow(lines, window, fit, neighbours, tuple(own))
+
+    def _sweep(self) -> None:
+        omega = self.grid.omega / np.sqrt(self.unit)
+        groups = clusters(self.modes.poles)
+        windows = [cluster_lines(self.modes.poles[own], omega) for own in groups]
+        for own, lines in zip(groups, windows, strict=True):
+            self._improve(own, lines)
+        keep = ~np.isnan(self.modes.poles)
+        self.modes = Modes(self.modes.poles[keep], self.modes.parts[keep])
+        groups = clusters(self.modes.poles)
+        for lines in tiles([cluster_lines(self.modes.poles[own], omega) for own in groups], len(omega)):
+            self._improve([], lines)
+
+    def _improve(self, own: list[int], lines: slice) -> None:
+        """Fit one window, drop modes that are not worth their price and add those that are."""
+        window, neighbours = self._window(lines), self._neighbours(own, lines)
+        fit = fit_window(window, Modes(self.modes.poles[own], self.modes.parts[own]), neighbours)
+        fit = prune(window, fit, neighbours)
+        fit = grow(window, fit, neighbours)
+        # poles that are gone are marked, so that the places of the others stay; the sweep's end removes them
+        poles, parts = self.modes.poles.copy(), self.modes.parts
+        poles[own] = np.nan
+        self.modes = Modes(
+            np.concatenate([poles, fit.modes.poles]), np.concatenate([parts, fit.modes.parts])
+        )
+
+
+def price(window: Window) -> float:
+    """Twice the log likelihood that a further mode must bring."""
+    points, references, lines = window.values.shape
+    unknowns = 2 * points + 2 + 2 * (references - 1)
+    return float(unknowns * np.log(2.0 * references * lines))
+
+
+def dispersion(window: Window, fit: WindowFit) -> float:
+    """Misfit over noise: mean squared weighted residual per degree of freedom, at least 1."""
+    data = int(np.count_nonzero(window.weights))
+    unknowns = fit.linear.coefficients.size + 2 * len(fit.modes)
+    return max(1.0, fit.chi2 / max(data - unknowns, 1))
+
+
+def prune(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
+    """Remove, the weakest first, modes whose shape does not stand out of its uncertainty."""
+    while len(fit.modes):
+        count = len(fit.modes)
+        variance = np.einsum("kcc->kc", fit.linear.inverse).real[:, :count]
+        worth = 2 * np.sum(np.abs(fit.linear.coefficients[:, :count]) ** 2 / variance, axis=0) / dispersion(window, fit)
+        weakest = int(np.argmin(worth))
+        if worth[weakest] > price(window) and _plausible(window, fit.modes.poles[weakest]):
+            break
+        fit = fit_window(window, fit.modes.without(weakest), neighbours)
+    return fit
+
+
+def grow(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
+    """Add modes while each is worth its price."""
+    for _ in range(_MOST_NEW):
+        known = np.concatenate([fit.modes.poles, neighbours.poles])
+        trials = trial_poles(window, known)
+        candidate = best_candidates(window, fit, neighbours, trials)[0]
+        if 2 * candidate.gain / dispersion(window, fit) < _HOPELESS * price(window):
+            break
+        larger = fit_window(window, fit.modes.with_mode(candidate.pole, candidate.part), neighbours)
+        gain = 2 * (fit.chi2 - larger.chi2) / dispersion(window, larger)
+        if gain < price(window) or not all(_plausible(window, pole) for pole in larger.modes.poles):
+            break
+        fit = larger
+    return fit
+
+
+def _plausible(window: Window, pole: complex) -> bool:
+    """Whether a pole lies in the window and is neither broader than it nor narrower than a line."""
+    if pole.real <= 0:
+        return False
+    omega = window.omega
+    frequency, width = np.sqrt(pole.real), np.sqrt(pole.real) * pole.imag / pole.real
+    span = float(omega[-1] - omega[0])
+    inside = omega[0] - 0.1 * span <= frequency <= omega[-1] + 0.1 * span
+    return bool(inside and 0.5 * span / (len(omega) - 1) < width < span)
+
+
+def _settled(before: Modes, after: Modes) -> bool:
+    if len(before) != len(after) or not len(after):
+        return len(before) == len(after)
+    a, b = np.sort_complex(before.poles), np.sort_complex(after.poles)
+    return bool(np.all(np.abs(a - b) < _SETTLED * b.imag))
+
+
+__all__ = ["FittedWindow", "ModeSearch", "dispersion", "price", "replace"]
