@@ -20,11 +20,15 @@ from statorhom.extraction.window_fit import Modes, Window, WindowFit, fit_window
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
-_SWEEPS = 6
-_MOST_NEW = 6  # modes per window and sweep
-_BINS_PER_BANDWIDTH = 12
-_ENOUGH_BINS = 400
+_SWEEPS = 5
+_MOST_NEW = 5  # modes per window and sweep
+_BINS_PER_BANDWIDTH = 8
+_ENOUGH_BINS = 250
 _HOPELESS = 0.3  # of the price: a candidate that promises less before its pole is optimized is left
+_OUTSIDE = 0.5  # of a window's width that a pole may lie beyond it
+_LEAST_DISPERSION = 0.1  # the noise may be overestimated at sharp peaks, but not by more
+_REACH = 0.3  # of a window's width
+_SEEN = 0.1  # bandwidths
 _SETTLED = 0.01  # bandwidths that a pole may still move
 
 
@@ -46,6 +50,7 @@ class ModeSearch:
         self.unit = float(grid.omega[-1] ** 2)
         self.grid = grid
         self.variance = np.where(grid.measured, sd**2.0, np.inf)
+        self.visited: list[tuple[slice, ComplexArray]] = []
         self.modes = Modes(poles / self.unit, np.array([unit_part(p) for p in parts]).reshape(len(poles), -1))
 
     def run(self) -> list[FittedWindow]:
@@ -95,12 +100,30 @@ class ModeSearch:
         for lines in tiles([cluster_lines(self.modes.poles[own], omega) for own in groups], len(omega)):
             self._improve([], lines)
 
+    def _reach(self, lines: slice) -> tuple[float, float]:
+        """How far beyond a window modes are looked for: beyond the ends of the data they are residual terms."""
+        return (_REACH * (lines.start == 0), _REACH * (lines.stop == len(self.grid.omega)))
+
+    def _exhausted(self, lines: slice, modes: Modes, neighbours: Modes) -> bool:
+        """Whether this window was searched before among the same poles."""
+        poles = np.sort_complex(np.concatenate([modes.poles, neighbours.poles]))
+        slack = 0.05 * (lines.stop - lines.start)
+        return any(
+            abs(lines.start - seen.start) <= slack
+            and abs(lines.stop - seen.stop) <= slack
+            and len(known) == len(poles)
+            and bool(np.all(np.abs(known - poles) < _SEEN * poles.imag))
+            for seen, known in self.visited
+        )
+
     def _improve(self, own: list[int], lines: slice) -> None:
         """Fit one window, drop modes that are not worth their price and add those that are."""
         window, neighbours = self._window(lines), self._neighbours(own, lines)
         fit = fit_window(window, Modes(self.modes.poles[own], self.modes.parts[own]), neighbours)
         fit = prune(window, fit, neighbours)
-        fit = grow(window, fit, neighbours)
+        if not self._exhausted(lines, fit.modes, neighbours):
+            fit = grow(window, fit, neighbours, self._reach(lines))
+            self.visited.append((lines, np.sort_complex(np.concatenate([fit.modes.poles, neighbours.poles]))))
         # poles that are gone are marked, so that the places of the others stay; the sweep's end removes them
         poles, parts = self.modes.poles.copy(), self.modes.parts
         poles[own] = np.nan
@@ -117,10 +140,14 @@ def price(window: Window) -> float:
 
 
 def dispersion(window: Window, fit: WindowFit) -> float:
-    """Misfit over noise: mean squared weighted residual per degree of freedom, at least 1."""
+    """Misfit over noise: mean squared weighted residual per independent degree of freedom.
+
+    Misfit that the noise does not explain is smooth along the lines; lines that agree with their neighbours
+    in it are not independent evidence for a mode.
+    """
     data = int(np.count_nonzero(window.weights))
     unknowns = fit.linear.coefficients.size + 2 * len(fit.modes)
-    return max(1.0, fit.chi2 / max(data - unknowns, 1))
+    return max(_LEAST_DISPERSION, fit.chi2 / max(data - unknowns, 1)) * fit.linear.correlation
 
 
 def prune(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
@@ -136,11 +163,13 @@ def prune(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
     return fit
 
 
-def grow(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
+def grow(
+    window: Window, fit: WindowFit, neighbours: Modes, reach: tuple[float, float] = (0.0, 0.0)
+) -> WindowFit:
     """Add modes while each is worth its price."""
     for _ in range(_MOST_NEW):
         known = np.concatenate([fit.modes.poles, neighbours.poles])
-        trials = trial_poles(window, known)
+        trials = trial_poles(window, known, reach)
         candidate = best_candidates(window, fit, neighbours, trials)[0]
         if 2 * candidate.gain / dispersion(window, fit) < _HOPELESS * price(window):
             break
@@ -159,7 +188,7 @@ def _plausible(window: Window, pole: complex) -> bool:
     omega = window.omega
     frequency, width = np.sqrt(pole.real), np.sqrt(pole.real) * pole.imag / pole.real
     span = float(omega[-1] - omega[0])
-    inside = omega[0] - 0.1 * span <= frequency <= omega[-1] + 0.1 * span
+    inside = omega[0] - _OUTSIDE * span <= frequency <= omega[-1] + _OUTSIDE * span
     return bool(inside and 0.5 * span / (len(omega) - 1) < width < span)
 
 

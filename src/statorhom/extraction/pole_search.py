@@ -20,6 +20,7 @@ _OFFSETS = (-1.0, -0.4, -0.1, 0.0, 0.1, 0.4, 1.0)  # of trial poles beside known
 _LEAST_NEW = 1e-7  # part of a column that must lie outside the known columns
 _LARGEST_LOSS = 0.5
 _LINES_PER_BANDWIDTH = 1.5  # a narrower pole cannot be told from one bad line
+_LOSS_STEP = 3.0  # trial loss factors; a trial pole half a bandwidth off still finds its mode
 _CHUNK = 48
 
 
@@ -32,18 +33,18 @@ class Candidate:
     gain: float
 
 
-def trial_poles(window: Window, known: ComplexArray, reach: float = 0.0) -> ComplexArray:
-    """Grid of trial poles over a window, widened by `reach` of its width, and beside the known poles."""
+def trial_poles(window: Window, known: ComplexArray, reach: tuple[float, float] = (0.0, 0.0)) -> ComplexArray:
+    """Grid of trial poles over a window, widened by `reach` of its width below and above, and beside known poles."""
     omega = window.omega
     width = float(omega[-1] - omega[0])
     spacing = width / (len(omega) - 1) * window.bin
-    low, high = max(float(omega[0]) - reach * width, spacing), float(omega[-1]) + reach * width
+    low, high = max(float(omega[0]) - reach[0] * width, spacing), float(omega[-1]) + reach[1] * width
     middle = float(omega[len(omega) // 2])
     least = _LINES_PER_BANDWIDTH * spacing / middle
     most = min(_LARGEST_LOSS, 0.5 * width / middle)
-    losses = np.geomspace(least, max(most, least), max(1, round(np.log2(max(most / least, 1.0))) + 1))
+    losses = np.geomspace(least, max(most, least), max(1, round(np.log(max(most / least, 1.0)) / np.log(_LOSS_STEP)) + 1))
     grid = [
-        (np.arange(low, high, max(0.5 * loss * middle, 0.5 * spacing)) ** 2) * (1 + 1j * loss) for loss in losses
+        (np.arange(low, high, loss * middle) ** 2) * (1 + 1j * loss) for loss in losses
     ]
     beside = [known + offset * known.imag for offset in _OFFSETS]
     return np.concatenate([*grid, *beside])
@@ -54,9 +55,8 @@ def best_candidates(
 ) -> list[Candidate]:
     """Trial poles of the largest gain, at most one per bandwidth."""
     phi = columns(window, fit.modes, neighbours)
-    points, references = window.values.shape[:2]
     unscaled = fit.linear.coefficients / fit.linear.norms
-    residual = window.values - np.einsum("kc,kcjl->kjl", unscaled, np.broadcast_to(phi, (points, *phi.shape[1:])))
+    residual = window.values - (unscaled[:, None] @ phi.reshape(*phi.shape[:2], -1)).reshape(window.values.shape)
     weighted_residual = window.weights * residual
     gains, scores = [], []
     for begin in range(0, len(trials), _CHUNK):
@@ -72,7 +72,6 @@ def best_candidates(
             chosen.append(Candidate(complex(trials[i]), parts[i], float(gain[i])))
         if len(chosen) == count:
             break
-    assert references == parts.shape[1]
     return chosen
 
 

@@ -15,6 +15,7 @@ ComplexArray = npt.NDArray[np.complex128]
 
 _BAND_LINES = 1000
 _HIGHEST_ORDER = 20
+_MOST_ROOTS = 40  # order times references
 _STABLE = 0.3  # distance to a pole of the next lower order, in half-power bandwidths
 _SAME = 0.5  # distance of one pole's images over the orders
 _LEAST_IMAGES = 3
@@ -42,7 +43,7 @@ def stabilize(grid: PointGrid, sd: FloatArray) -> tuple[ComplexArray, ComplexArr
     """Start poles ((rad/s)², shape (poles,)), their participations, and the stabilization diagram."""
     squared, parts, orders, stable = [], [], [], []
     for lines in _bands(len(grid.omega)):
-        highest = min(_HIGHEST_ORDER, (lines.stop - lines.start) // 4)
+        highest = max(4, min(_HIGHEST_ORDER, _MOST_ROOTS // len(grid.references), (lines.stop - lines.start) // 4))
         previous = np.zeros(0, dtype=complex)
         for found in plscf(grid, sd, lines, highest):
             squared.append(found.squared)

@@ -108,12 +108,16 @@ class Linear:
     inverse : complex array, shape (points, columns, columns)
         Their covariance.
     norms : array, shape (points, columns)
+    correlation : float
+        Integrated autocorrelation of the weighted residuals along the lines, at least 1: about 1 for noise,
+        more where the model misses something smooth.
     """
 
     chi2: FloatArray
     coefficients: ComplexArray
     inverse: ComplexArray
     norms: FloatArray
+    correlation: float = 1.0
 
 
 def unit_part(part: ComplexArray) -> ComplexArray:
@@ -158,13 +162,13 @@ def solve_linear(window: Window, phi: ComplexArray) -> Linear:
     values = window.values.reshape(points, -1)
     weighted = flat.conj() * weights
     gram = weighted @ flat.transpose(0, 2, 1)
-    right = np.einsum("kcl,kl->kc", weighted, values)
+    right = (weighted @ values[:, :, None])[..., 0]
     diagonal = np.sqrt(np.maximum(np.einsum("kcc->kc", gram).real, np.finfo(float).tiny))
     gram = gram / (diagonal[:, :, None] * diagonal[:, None, :])
     inverse = np.linalg.pinv(gram, rcond=_RANK, hermitian=True)
     scaled = right / diagonal
     coefficients = np.einsum("kab,kb->ka", inverse, scaled)
-    energy = np.einsum("kl,kl->k", weights[:, 0], np.abs(values) ** 2)
+    energy = np.sum(weights[:, 0] * np.abs(values) ** 2, axis=1)
     chi2 = energy - np.einsum("ka,ka->k", scaled.conj(), coefficients).real
     return Linear(np.maximum(chi2, 0.0), coefficients, inverse, diagonal)
 
@@ -205,7 +209,7 @@ def fit_window(
             step = _step(fit, gradient, damping)
             trial = _moved(fit.modes, step)
             candidate = _state(window, trial, neighbours)
-            if candidate[0].chi2 <= fit.chi2:
+            if candidate[0].chi2 <= fit.chi2:  # never for NaN
                 accepted = candidate
                 break
             damping *= 8.0
@@ -222,20 +226,21 @@ def _state(window: Window, modes: Modes, neighbours: Modes | None) -> tuple[Wind
     """Fit at given non-linear unknowns, and half the negative gradient of χ²."""
     phi = columns(window, modes, neighbours)
     linear = solve_linear(window, phi)
+    points = len(window.values)
+    flat = phi.reshape(len(phi), phi.shape[1], -1)
+    unscaled = linear.coefficients / linear.norms
+    residual = window.values.reshape(points, -1) - (unscaled[:, None] @ flat)[:, 0]
+    linear = replace(linear, correlation=residual_correlation(window, residual))
     empty = np.zeros((0, 0), dtype=complex)
     if not len(modes):
         cross = np.zeros((len(linear.chi2), phi.shape[1], 0), dtype=complex)
         return WindowFit(modes, float(linear.chi2.sum()), linear, empty, cross), np.zeros(0, dtype=complex)
     derivative, owner = _derivatives(window, modes)
-    points = len(window.values)
     weights = window.weights.reshape(points, 1, -1)
     flat_d = derivative.reshape(len(derivative), derivative.shape[1], -1)
-    flat = phi.reshape(len(phi), phi.shape[1], -1)
     weighted = flat_d.conj() * weights
-    unscaled = linear.coefficients / linear.norms
-    residual = window.values.reshape(points, -1) - np.einsum("kc,kcl->kl", unscaled, np.broadcast_to(flat, (points, *flat.shape[1:])))
     amplitude = unscaled[:, owner]
-    gradient = np.einsum("kp,kp->p", amplitude.conj(), np.einsum("kpl,kl->kp", weighted, residual))
+    gradient = np.sum(amplitude.conj() * (weighted @ residual[:, :, None])[..., 0], axis=0)
     d_phi = (weighted @ flat.transpose(0, 2, 1)) / linear.norms[:, None, :]
     moved = linear.inverse @ d_phi.conj().transpose(0, 2, 1)  # (points, columns, unknowns)
     inner = weighted @ flat_d.transpose(0, 2, 1) - d_phi @ moved
@@ -243,6 +248,16 @@ def _state(window: Window, modes: Modes, neighbours: Modes | None) -> tuple[Wind
     cross = -moved * amplitude[:, None, :]
     fit = WindowFit(modes, float(linear.chi2.sum()), linear, hessian, cross)
     return fit, gradient
+
+
+def residual_correlation(window: Window, residual: ComplexArray) -> float:
+    """Integrated autocorrelation along the lines if neighbours are correlated as in an AR(1) process, ≥ 1."""
+    white = residual.reshape(window.values.shape) * np.sqrt(window.weights)
+    energy = float(np.sum(np.abs(white) ** 2))
+    if energy == 0.0:
+        return 1.0
+    beside = float(np.sum((white[..., 1:] * white[..., :-1].conj()).real)) / energy
+    return (1 + beside) / (1 - beside) if 0.0 < beside < 1.0 else 1.0
 
 
 def _derivatives(window: Window, modes: Modes) -> tuple[ComplexArray, npt.NDArray[np.int_]]:
@@ -271,7 +286,9 @@ def free_parts(modes: Modes) -> npt.NDArray[np.int_]:
 
 
 def _step(fit: WindowFit, gradient: ComplexArray, damping: float) -> ComplexArray:
-    diagonal = np.sqrt(np.maximum(np.diag(fit.hessian).real, np.finfo(float).tiny))
+    size = np.diag(fit.hessian).real
+    # an unknown without influence stays where it is
+    diagonal = np.sqrt(np.where(size > _RANK * size.max(initial=0.0), size, np.inf))
     scaled = fit.hessian / np.outer(diagonal, diagonal)
     scaled = scaled + damping * np.eye(len(diagonal))
     step: ComplexArray = np.linalg.pinv(scaled, rcond=_RANK, hermitian=True) @ (gradient / diagonal) / diagonal
