@@ -7,7 +7,7 @@ noise counted as noise.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -198,5 +198,3 @@ def _settled(before: Modes, after: Modes) -> bool:
     a, b = np.sort_complex(before.poles), np.sort_complex(after.poles)
     return bool(np.all(np.abs(a - b) < _SETTLED * b.imag))
 
-
-__all__ = ["FittedWindow", "ModeSearch", "dispersion", "price", "replace"]

@@ -62,7 +62,7 @@ class Window:
         """Curves over `squared`, averaged over the bins."""
         if self.bin == 1:
             return curves
-        mean: ComplexArray = curves.reshape(*curves.shape[:-1], -1, self.bin).mean(axis=-1)
+        mean: ComplexArray = curves.reshape(*curves.shape[:-1], self.values.shape[-1], self.bin).mean(axis=-1)
         return mean
 
 
