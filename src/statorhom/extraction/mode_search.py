@@ -27,6 +27,10 @@ _ENOUGH_BINS = 250
 _HOPELESS = 0.3  # of the price: a candidate that promises less before its pole is optimized is left
 _OUTSIDE = 0.5  # of a window's width that a pole may lie beyond it
 _LEAST_DISPERSION = 0.1  # the noise may be overestimated at sharp peaks, but not by more
+_CANDIDATES = 3
+_SAME_SHAPE = 0.95  # MAC
+_FLANK = 10.0  # bandwidths over which a mode's own curve may be inexact …
+_LEAST_BESIDE = 0.1  # … by this part
 _REACH = 0.3  # of a window's width
 _SEEN = 0.1  # bandwidths
 _SETTLED = 0.01  # bandwidths that a pole may still move
@@ -157,7 +161,12 @@ def prune(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
         variance = np.einsum("kcc->kc", fit.linear.inverse).real[:, :count]
         worth = 2 * np.sum(np.abs(fit.linear.coefficients[:, :count]) ** 2 / variance, axis=0) / dispersion(window, fit)
         weakest = int(np.argmin(worth))
-        if worth[weakest] > price(window) and _plausible(window, fit.modes.poles[weakest]):
+        doubtful = [
+            m for m in range(count) if not _plausible(window, fit.modes.poles[m]) or repeats(fit, neighbours, m)
+        ]
+        if doubtful:
+            weakest = min(doubtful, key=lambda m: worth[m])
+        elif worth[weakest] > price(window):
             break
         fit = fit_window(window, fit.modes.without(weakest), neighbours)
     return fit
@@ -168,17 +177,51 @@ def grow(
 ) -> WindowFit:
     """Add modes while each is worth its price."""
     for _ in range(_MOST_NEW):
-        known = np.concatenate([fit.modes.poles, neighbours.poles])
-        trials = trial_poles(window, known, reach)
-        candidate = best_candidates(window, fit, neighbours, trials)[0]
-        if 2 * candidate.gain / dispersion(window, fit) < _HOPELESS * price(window):
-            break
-        larger = fit_window(window, fit.modes.with_mode(candidate.pole, candidate.part), neighbours)
-        gain = 2 * (fit.chi2 - larger.chi2) / dispersion(window, larger)
-        if gain < price(window) or not all(_plausible(window, pole) for pole in larger.modes.poles):
+        larger = _larger(window, fit, neighbours, reach)
+        if larger is None:
             break
         fit = larger
     return fit
+
+
+def _larger(
+    window: Window, fit: WindowFit, neighbours: Modes, reach: tuple[float, float]
+) -> WindowFit | None:
+    """Fit with one mode more, from the most promising candidate that holds; None where none does."""
+    known = np.concatenate([fit.modes.poles, neighbours.poles])
+    trials = trial_poles(window, known, reach)
+    for candidate in best_candidates(window, fit, neighbours, trials, _CANDIDATES):
+        if 2 * candidate.gain / dispersion(window, fit) < _HOPELESS * price(window):
+            return None
+        larger = fit_window(window, fit.modes.with_mode(candidate.pole, candidate.part), neighbours)
+        gain = 2 * (fit.chi2 - larger.chi2) / dispersion(window, larger)
+        if gain < price(window):
+            return None
+        physical = all(_plausible(window, pole) for pole in larger.modes.poles)
+        if physical and not any(repeats(larger, neighbours, m) for m in range(len(larger.modes))):
+            return larger
+    return None
+
+
+def repeats(fit: WindowFit, neighbours: Modes, index: int) -> bool:
+    """Whether a mode is but a correction of a stronger one nearby.
+
+    Distinct modes that overlap differ in shape. A pole with its neighbour's shape, within the neighbour's
+    bandwidth or far below the neighbour's own curve, is what a frequency that shifts from set-up to set-up or
+    a resonance curve that is not exactly rational leaves over.
+    """
+    poles = np.concatenate([fit.modes.poles, neighbours.poles])
+    shapes = (fit.linear.coefficients / fit.linear.norms)[:, : len(poles)]
+    size = np.linalg.norm(shapes, axis=0) * np.linalg.norm(np.concatenate([fit.modes.parts, neighbours.parts]), axis=1)
+    strength = size / poles.imag
+    norm = np.maximum(np.linalg.norm(shapes, axis=0), np.finfo(float).tiny)
+    mac = np.abs(shapes[:, index].conj() @ shapes / norm[index] / norm) ** 2
+    distance = np.abs(poles.real - poles[index].real)
+    curve = size / np.abs(poles - poles[index].real)
+    overlap = distance < np.maximum(poles.imag, poles[index].imag)
+    beside = (distance < _FLANK * poles.imag) & (strength[index] < _LEAST_BESIDE * curve)
+    stronger = strength > strength[index]
+    return bool(np.any((mac > _SAME_SHAPE) & stronger & (overlap | beside)))
 
 
 def _plausible(window: Window, pole: complex) -> bool:

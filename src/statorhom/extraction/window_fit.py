@@ -18,8 +18,9 @@ FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
 _RANK = 1e-12  # eigenvalues of scaled normal matrices below this are zero
-_ITERATIONS = 40
-_CONVERGED = 1e-6  # decrease of χ² that is worth a further step, per unknown
+_ITERATIONS = 25
+_CONVERGED = 1e-3  # decrease of χ² that is worth a further step, per unknown: 3 % of a standard deviation
+_CONVERGED_MISFIT = 1e-6  # the same relative to χ², where misfit exceeds the noise by far
 _LARGEST_STEP = 0.7  # of a pole, in units of its half-power bandwidth
 _LEAST_LOSS = 1e-7
 
@@ -217,7 +218,7 @@ def fit_window(
             break
         gained = fit.chi2 - accepted[0].chi2
         state, damping = accepted, max(damping / 6.0, 1e-12)
-        if gained < max(_CONVERGED * len(gradient), 1e-12 * fit.chi2):
+        if gained < max(_CONVERGED * len(gradient), _CONVERGED_MISFIT * fit.chi2):
             break
     return state[0]
 
