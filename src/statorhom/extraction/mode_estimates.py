@@ -32,6 +32,7 @@ def mode_estimates(
     moved = np.einsum("kcp,pq,kcq->kc", fit.cross, covariance, fit.cross.conj()).real
     amplitude = fit.linear.coefficients / fit.linear.norms
     amplitude_sd = np.sqrt(linear + np.maximum(moved, 0.0)) / fit.linear.norms
+    amplitude_sd[linear <= 0] = np.inf  # points without data in the window
     free = free_parts(fit.modes)
     drive = driving_point(grid.points, grid.references)
     modes = []

@@ -55,7 +55,7 @@ class ModeSearch:
         self.grid = grid
         self.variance = np.where(grid.measured, sd**2.0, np.inf)
         self.visited: list[tuple[slice, ComplexArray]] = []
-        self.modes = Modes(poles / self.unit, np.array([unit_part(p) for p in parts]).reshape(len(poles), -1))
+        self.modes = Modes(poles / self.unit, np.array([unit_part(p) for p in parts]).reshape(len(poles), len(grid.references)))
 
     def run(self) -> list[FittedWindow]:
         """Sweep until the modes settle; the windows of the clusters with their last fits."""
@@ -159,7 +159,9 @@ def prune(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
     while len(fit.modes):
         count = len(fit.modes)
         variance = np.einsum("kcc->kc", fit.linear.inverse).real[:, :count]
-        worth = 2 * np.sum(np.abs(fit.linear.coefficients[:, :count]) ** 2 / variance, axis=0) / dispersion(window, fit)
+        square = np.abs(fit.linear.coefficients[:, :count]) ** 2
+        # a point without data in the window has neither coefficient nor variance
+        worth = 2 * np.sum(square / np.where(variance > 0, variance, np.inf), axis=0) / dispersion(window, fit)
         weakest = int(np.argmin(worth))
         doubtful = [
             m for m in range(count) if not _plausible(window, fit.modes.poles[m]) or repeats(fit, neighbours, m)
