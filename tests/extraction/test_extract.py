@@ -15,7 +15,9 @@ from statorhom.recordings.frf_set import FrfSet
 
 POINTS = ring_points(12, 2)
 AXIS = np.arange(800.0, 1600.0)
-SHAPES = np.array([ring_shape(POINTS, 2, 0.2), ring_shape(POINTS, 3, 0.1), ring_shape(POINTS, 2, 0.3, axial=1)])
+SHAPES = np.array(
+    [ring_shape(POINTS, 2, 0.2), ring_shape(POINTS, 3, 0.1), ring_shape(POINTS, 2, 0.3, axial=1)]
+)
 POLES = [(1000.0, 0.01), (1150.0, 0.02), (1400.3, 0.008)]
 
 
@@ -35,7 +37,9 @@ def frequencies(extraction: Extraction) -> np.ndarray:
 def test_exact_data_give_the_exact_modes() -> None:
     found = extract(measured())
     np.testing.assert_allclose(frequencies(found), [pole[0] for pole in POLES], rtol=1e-5)
-    np.testing.assert_allclose([mode.loss_factor for mode in found.modes], [pole[1] for pole in POLES], rtol=1e-3)
+    np.testing.assert_allclose(
+        [mode.loss_factor for mode in found.modes], [pole[1] for pole in POLES], rtol=1e-3
+    )
     for mode, shape in zip(found.modes, SHAPES, strict=True):
         assert mac(mode.shape, shape) > 1 - 1e-5
         assert mode.modal_constant_per_kg == pytest.approx(shape[0] ** 2, rel=1e-3)

@@ -82,7 +82,9 @@ def circle_fit(frequency_hz: npt.ArrayLike, receptance: npt.ArrayLike) -> Circle
     omega = 2 * np.pi * np.asarray(frequency_hz, dtype=float)
     values = np.asarray(receptance, dtype=complex)
     if omega.size < _FEWEST_LINES or not np.isfinite(values).all():
-        raise ExtractionError(f"a circle fit needs {_FEWEST_LINES} finite lines around the peak, got {omega.size}")
+        raise ExtractionError(
+            f"a circle fit needs {_FEWEST_LINES} finite lines around the peak, got {omega.size}"
+        )
     centre, radius = _circle(values)
     angle = np.unwrap(np.angle(values - centre))
     square, loss, spread = _resonance(omega, angle)
@@ -133,6 +135,7 @@ def _resonance(omega: FloatArray, angle: FloatArray) -> tuple[float, float, floa
         change = (omega**2 - square) / width
         residual = angle - (reference - 2 * np.arctan(change))
         # Gauss–Newton on angle at resonance, ω_r² and ηω_r²
+        change = np.clip(change, -1e6, 1e6)
         slope = 2.0 / (1 + change**2) / width
         jacobian = np.stack([np.ones_like(omega), slope, slope * change], axis=1)
         scale = np.maximum(np.linalg.norm(jacobian, axis=0), np.finfo(float).tiny)

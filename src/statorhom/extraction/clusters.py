@@ -10,7 +10,9 @@ ComplexArray = npt.NDArray[np.complex128]
 
 _GAP = 3.0  # bandwidths between poles that are fitted apart
 _MARGIN = 8.0  # bandwidths of a window beyond its outermost poles
-_LARGEST_MARGIN = 0.15  # of the frequency, but at least two bandwidths: far lines tell little of a damped mode
+_LARGEST_MARGIN = (
+    0.15  # of the frequency, but at least two bandwidths: far lines tell little of a damped mode
+)
 _LEAST_MARGIN = 15  # lines
 _LARGEST_CLUSTER = 8
 _TILE = 400  # lines

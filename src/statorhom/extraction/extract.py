@@ -21,9 +21,7 @@ ComplexArray = npt.NDArray[np.complex128]
 _LOCATED = 0.5  # largest standard deviation of a mode's frequency, in half-power bandwidths
 
 
-def extract(
-    frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | None = None
-) -> Extraction:
+def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | None = None) -> Extraction:
     """Modes of a test from its FRFs.
 
     Start values are the stable poles of the poly-reference least-squares complex frequency estimator; every
@@ -48,9 +46,7 @@ def extract(
     poles, parts, stabilization = stabilize(grid, sd)
     search = ModeSearch(grid, sd, poles, parts)
     decay = float(np.mean([one.window_decay_per_s for one in sets]))
-    found = [
-        mode for fitted in search.run() for mode in mode_estimates(fitted, grid, stabilization, decay)
-    ]
+    found = [mode for fitted in search.run() for mode in mode_estimates(fitted, grid, stabilization, decay)]
     found.sort(key=lambda mode: mode.frequency_hz)
     band = (float(grid.omega[0] / (2 * np.pi)), float(grid.omega[-1] / (2 * np.pi)))
     modes = tuple(mode for mode in found if _is_mode(mode, band))

@@ -38,8 +38,11 @@ class ExtractedMode:
         Root mean square residual around the mode over the noise.
     stability : float
         Share of the model orders that show the mode, 0 … 1.
-    observed : float in (rad/s)², complex
-        The pole ω_r²(1 + iη_r) as it lies in the data, windows' damping included.
+    observed : complex
+        The pole ω_r²(1 + iη_r) as it lies in the data ((rad/s)²), windows' damping included.
+    point_shift : array, shape (points,), or None
+        Relative shift δ of the natural frequency, ω_r(1 + δ_k), from point to point, with median 0, where the data
+        ask for it: a roving sensor's mass does this. None where all points share the pole.
     """
 
     frequency_hz: float
@@ -56,6 +59,7 @@ class ExtractedMode:
     misfit: float
     stability: float
     observed: complex
+    point_shift: FloatArray | None = None
 
     def __post_init__(self) -> None:
         for array in (self.shape, self.shape_sd, self.participation, self.participation_sd):
@@ -79,8 +83,10 @@ class ExtractedMode:
     def receptance(self, frequency_hz: npt.ArrayLike) -> ComplexArray:
         """The mode's part of the receptances (m/N), shape (points, references, lines)."""
         squared = (2 * np.pi * np.asarray(frequency_hz, dtype=float)) ** 2
-        part: ComplexArray = np.einsum(
-            "k,j,l->kjl", self.shape, self.participation, 1.0 / (self.observed - squared)
+        shift = np.zeros(1) if self.point_shift is None else self.point_shift
+        curve = 1.0 / (self.observed * (1 + shift[:, None]) ** 2 - squared)
+        part: ComplexArray = (
+            self.shape[:, None, None] * self.participation[None, :, None] * curve[:, None, :]
         )
         return part
 
@@ -133,7 +139,9 @@ class Extraction:
         return grid[self.cells[:, 0], self.cells[:, 1]]
 
 
-def residual_lines(mass_line: ComplexArray, stiffness_line: ComplexArray, frequency_hz: FloatArray) -> ComplexArray:
+def residual_lines(
+    mass_line: ComplexArray, stiffness_line: ComplexArray, frequency_hz: FloatArray
+) -> ComplexArray:
     """Residual terms of equation [7] over a frequency axis, shape (points, references, lines)."""
     squared = (2 * np.pi * frequency_hz) ** 2
     lines: ComplexArray = mass_line[..., None] / squared + stiffness_line[..., None]

@@ -101,9 +101,10 @@ def _profile(
     pole = mode.observed * (1 + shift[:, None]) ** 2
     curve = 1.0 / (pole - squared)
     constants = residual_lines(np.ones(1, dtype=complex), np.zeros(1, dtype=complex), omega / (2 * np.pi))[0]
-    columns = np.stack(
-        [curve, np.broadcast_to(constants, curve.shape), np.ones_like(curve)], axis=-1
-    ) / sd[..., None]
+    columns = (
+        np.stack([curve, np.broadcast_to(constants, curve.shape), np.ones_like(curve)], axis=-1)
+        / sd[..., None]
+    )
     q, r = np.linalg.qr(columns)
     white = values / sd
     projected = np.einsum("flc,fl->fc", q.conj(), white)

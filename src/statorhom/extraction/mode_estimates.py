@@ -7,7 +7,8 @@ import numpy.typing as npt
 
 from statorhom.extraction.complexity import in_phase, phase_collinearity
 from statorhom.extraction.extraction import ExtractedMode
-from statorhom.extraction.mode_search import FittedWindow, dispersion
+from statorhom.extraction.mode_search import FittedWindow
+from statorhom.extraction.pole_price import dispersion
 from statorhom.extraction.point_grid import PointGrid
 from statorhom.extraction.stabilization import Stabilization
 from statorhom.extraction.window_fit import free_parts
@@ -51,6 +52,7 @@ def mode_estimates(
             | {
                 "misfit": float(np.sqrt(excess / fit.linear.correlation)),
                 "stability": stability(stabilization, pole),
+                "point_shift": fit.modes.shift,
             }
         )
     return [ExtractedMode(**fields) for fields in modes]

@@ -7,7 +7,7 @@ noise counted as noise.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -15,19 +15,21 @@ import numpy.typing as npt
 from statorhom.extraction.clusters import cluster_lines, clusters, nearest, tiles
 from statorhom.extraction.point_grid import PointGrid
 from statorhom.extraction.pole_search import best_candidates, trial_poles
+from statorhom.extraction.point_shifts import with_shifts
+from statorhom.extraction.pole_price import dispersion, price
 from statorhom.extraction.window_fit import Modes, Window, WindowFit, fit_window, unit_part
 
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
-_SWEEPS = 5
+_SWEEPS = 4
 _MOST_NEW = 5  # modes per window and sweep
 _BINS_PER_BANDWIDTH = 8
 _ENOUGH_BINS = 250
 _HOPELESS = 0.3  # of the price: a candidate that promises less before its pole is optimized is left
 _OUTSIDE = 0.5  # of a window's width that a pole may lie beyond it
-_LEAST_DISPERSION = 0.1  # the noise may be overestimated at sharp peaks, but not by more
-_CANDIDATES = 3
+_CANDIDATES = 2
+_TRIAL_ITERATIONS = 12  # the sweeps refine what is kept
 _SAME_SHAPE = 0.95  # MAC
 _FLANK = 10.0  # bandwidths over which a mode's own curve may be inexact …
 _LEAST_BESIDE = 0.1  # … by this part
@@ -55,7 +57,10 @@ class ModeSearch:
         self.grid = grid
         self.variance = np.where(grid.measured, sd**2.0, np.inf)
         self.visited: list[tuple[slice, ComplexArray]] = []
-        self.modes = Modes(poles / self.unit, np.array([unit_part(p) for p in parts]).reshape(len(poles), len(grid.references)))
+        self.modes = Modes(
+            poles / self.unit,
+            np.array([unit_part(p) for p in parts]).reshape(len(poles), len(grid.references)),
+        )
 
     def run(self) -> list[FittedWindow]:
         """Sweep until the modes settle; the windows of the clusters with their last fits."""
@@ -64,7 +69,8 @@ class ModeSearch:
             self._sweep()
             if _settled(before, self.modes):
                 break
-        return [self._fitted(own) for own in clusters(self.modes.poles)]
+        fitted = [self._fitted(own) for own in clusters(self.modes.poles)]
+        return [replace(one, fit=with_shifts(one.window, one.fit, one.neighbours)) for one in fitted]
 
     def _window(self, lines: slice) -> Window:
         squared = self.grid.omega[lines] ** 2 / self.unit
@@ -131,27 +137,7 @@ class ModeSearch:
         # poles that are gone are marked, so that the places of the others stay; the sweep's end removes them
         poles, parts = self.modes.poles.copy(), self.modes.parts
         poles[own] = np.nan
-        self.modes = Modes(
-            np.concatenate([poles, fit.modes.poles]), np.concatenate([parts, fit.modes.parts])
-        )
-
-
-def price(window: Window) -> float:
-    """Twice the log likelihood that a further mode must bring."""
-    points, references, lines = window.values.shape
-    unknowns = 2 * points + 2 + 2 * (references - 1)
-    return float(unknowns * np.log(2.0 * references * lines))
-
-
-def dispersion(window: Window, fit: WindowFit) -> float:
-    """Misfit over noise: mean squared weighted residual per independent degree of freedom.
-
-    Misfit that the noise does not explain is smooth along the lines; lines that agree with their neighbours
-    in it are not independent evidence for a mode.
-    """
-    data = int(np.count_nonzero(window.weights))
-    unknowns = fit.linear.coefficients.size + 2 * len(fit.modes)
-    return max(_LEAST_DISPERSION, fit.chi2 / max(data - unknowns, 1)) * fit.linear.correlation
+        self.modes = Modes(np.concatenate([poles, fit.modes.poles]), np.concatenate([parts, fit.modes.parts]))
 
 
 def prune(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
@@ -161,10 +147,14 @@ def prune(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
         variance = np.einsum("kcc->kc", fit.linear.inverse).real[:, :count]
         square = np.abs(fit.linear.coefficients[:, :count]) ** 2
         # a point without data in the window has neither coefficient nor variance
-        worth = 2 * np.sum(square / np.where(variance > 0, variance, np.inf), axis=0) / dispersion(window, fit)
+        worth = (
+            2 * np.sum(square / np.where(variance > 0, variance, np.inf), axis=0) / dispersion(window, fit)
+        )
         weakest = int(np.argmin(worth))
         doubtful = [
-            m for m in range(count) if not _plausible(window, fit.modes.poles[m]) or repeats(fit, neighbours, m)
+            m
+            for m in range(count)
+            if not _plausible(window, fit.modes.poles[m]) or repeats(fit, neighbours, m)
         ]
         if doubtful:
             weakest = min(doubtful, key=lambda m: worth[m])
@@ -195,7 +185,9 @@ def _larger(
     for candidate in best_candidates(window, fit, neighbours, trials, _CANDIDATES):
         if 2 * candidate.gain / dispersion(window, fit) < _HOPELESS * price(window):
             return None
-        larger = fit_window(window, fit.modes.with_mode(candidate.pole, candidate.part), neighbours)
+        larger = fit_window(
+            window, fit.modes.with_mode(candidate.pole, candidate.part), neighbours, _TRIAL_ITERATIONS
+        )
         gain = 2 * (fit.chi2 - larger.chi2) / dispersion(window, larger)
         if gain < price(window):
             return None
@@ -214,7 +206,9 @@ def repeats(fit: WindowFit, neighbours: Modes, index: int) -> bool:
     """
     poles = np.concatenate([fit.modes.poles, neighbours.poles])
     shapes = (fit.linear.coefficients / fit.linear.norms)[:, : len(poles)]
-    size = np.linalg.norm(shapes, axis=0) * np.linalg.norm(np.concatenate([fit.modes.parts, neighbours.parts]), axis=1)
+    size = np.linalg.norm(shapes, axis=0) * np.linalg.norm(
+        np.concatenate([fit.modes.parts, neighbours.parts]), axis=1
+    )
     strength = size / poles.imag
     norm = np.maximum(np.linalg.norm(shapes, axis=0), np.finfo(float).tiny)
     mac = np.abs(shapes[:, index].conj() @ shapes / norm[index] / norm) ** 2
@@ -242,4 +236,3 @@ def _settled(before: Modes, after: Modes) -> bool:
         return len(before) == len(after)
     a, b = np.sort_complex(before.poles), np.sort_complex(after.poles)
     return bool(np.all(np.abs(a - b) < _SETTLED * b.imag))
-

@@ -58,7 +58,9 @@ def _from_repeats(grid: PointGrid) -> FloatArray:
     deviation = np.where(np.isfinite(stack), stack - grid.receptance, 0.0)
     variance = np.sum(np.abs(deviation) ** 2, axis=0) / np.maximum(count - 1, 1) / count
     kernel = np.ones(2 * _HALF_STENCIL + 1) / (2 * _HALF_STENCIL + 1)
-    smooth = np.apply_along_axis(lambda row: np.convolve(np.pad(row, _HALF_STENCIL, "edge"), kernel, "valid"), -1, variance)
+    smooth = np.apply_along_axis(
+        lambda row: np.convolve(np.pad(row, _HALF_STENCIL, "edge"), kernel, "valid"), -1, variance
+    )
     least = (_LEAST_RELATIVE * np.abs(grid.receptance).max(axis=-1, keepdims=True)) ** 2
     sd: FloatArray = np.sqrt(smooth + least + np.finfo(float).tiny)
     return sd
@@ -87,7 +89,10 @@ def _local_polynomial(values: ComplexArray) -> tuple[ComplexArray, FloatArray]:
         variance += np.abs(coordinate) ** 2
     variance /= rest.shape[1]
     edge = _HALF_STENCIL
-    variance[..., :edge], variance[..., -edge:] = variance[..., edge : edge + 1], variance[..., -edge - 1 : -edge]
+    variance[..., :edge], variance[..., -edge:] = (
+        variance[..., edge : edge + 1],
+        variance[..., -edge - 1 : -edge],
+    )
     return smooth, variance
 
 

@@ -73,7 +73,9 @@ def point_grid(frf_sets: Sequence[FrfSet], band_hz: tuple[float, float] | None =
         if other.frequency_hz.shape != axis.shape or not np.allclose(
             other.frequency_hz, axis, rtol=0.0, atol=_SAME_LINES * float(np.median(np.diff(axis)))
         ):
-            raise ExtractionError(f"{other.source or source}: its frequency axis differs from that of {source}")
+            raise ExtractionError(
+                f"{other.source or source}: its frequency axis differs from that of {source}"
+            )
     pairs = [pair for one in frf_sets for pair in zip(one.responses, one.references, strict=True)]
     if not pairs:
         raise ExtractionError(f"{source}: holds no FRFs to extract modes from")

@@ -42,10 +42,10 @@ def trial_poles(window: Window, known: ComplexArray, reach: tuple[float, float] 
     middle = float(omega[len(omega) // 2])
     least = _LINES_PER_BANDWIDTH * spacing / middle
     most = min(_LARGEST_LOSS, 0.5 * width / middle)
-    losses = np.geomspace(least, max(most, least), max(1, round(np.log(max(most / least, 1.0)) / np.log(_LOSS_STEP)) + 1))
-    grid = [
-        (np.arange(low, high, loss * middle) ** 2) * (1 + 1j * loss) for loss in losses
-    ]
+    losses = np.geomspace(
+        least, max(most, least), max(1, round(np.log(max(most / least, 1.0)) / np.log(_LOSS_STEP)) + 1)
+    )
+    grid = [(np.arange(low, high, loss * middle) ** 2) * (1 + 1j * loss) for loss in losses]
     beside = [known + offset * known.imag for offset in _OFFSETS]
     return np.concatenate([*grid, *beside])
 
@@ -56,7 +56,9 @@ def best_candidates(
     """Trial poles of the largest gain, at most one per bandwidth."""
     phi = columns(window, fit.modes, neighbours)
     unscaled = fit.linear.coefficients / fit.linear.norms
-    residual = window.values - (unscaled[:, None] @ phi.reshape(*phi.shape[:2], -1)).reshape(window.values.shape)
+    residual = window.values - (unscaled[:, None] @ phi.reshape(*phi.shape[:2], -1)).reshape(
+        window.values.shape
+    )
     weighted_residual = window.weights * residual
     gains, scores = [], []
     for begin in range(0, len(trials), _CHUNK):
@@ -100,12 +102,16 @@ def _gains(
     least = _LEAST_NEW * diagonal.max(axis=0).T
     if references == 1:
         new = schur[..., 0, 0].real
-        gain = np.where(new > least, np.abs(score[..., 0]) ** 2 / np.maximum(new, least + np.finfo(float).tiny), 0.0)
+        gain = np.where(
+            new > least, np.abs(score[..., 0]) ** 2 / np.maximum(new, least + np.finfo(float).tiny), 0.0
+        )
         return gain.sum(axis=1), np.ones((trials, 1), dtype=complex)
     return _with_participation(schur, score, least)
 
 
-def _with_participation(schur: ComplexArray, score: ComplexArray, least: FloatArray) -> tuple[FloatArray, ComplexArray]:
+def _with_participation(
+    schur: ComplexArray, score: ComplexArray, least: FloatArray
+) -> tuple[FloatArray, ComplexArray]:
     mean = schur.mean(axis=1)
     values, vectors = np.linalg.eigh(mean)
     usable = values > least.mean(axis=1)[:, None]

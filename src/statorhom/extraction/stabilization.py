@@ -43,7 +43,9 @@ def stabilize(grid: PointGrid, sd: FloatArray) -> tuple[ComplexArray, ComplexArr
     """Start poles ((rad/s)², shape (poles,)), their participations, and the stabilization diagram."""
     squared, parts, orders, stable = [], [], [], []
     for lines in _bands(len(grid.omega)):
-        highest = max(4, min(_HIGHEST_ORDER, _MOST_ROOTS // len(grid.references), (lines.stop - lines.start) // 4))
+        highest = max(
+            4, min(_HIGHEST_ORDER, _MOST_ROOTS // len(grid.references), (lines.stop - lines.start) // 4)
+        )
         previous = np.zeros(0, dtype=complex)
         for found in plscf(grid, sd, lines, highest):
             squared.append(found.squared)
@@ -54,7 +56,10 @@ def stabilize(grid: PointGrid, sd: FloatArray) -> tuple[ComplexArray, ComplexArr
     every, part = np.concatenate(squared), np.concatenate(parts)
     is_stable = np.concatenate(stable)
     diagram = Stabilization(
-        np.sqrt(every.real.clip(min=0.0)) / (2 * np.pi), every.imag / every.real, np.concatenate(orders), is_stable
+        np.sqrt(every.real.clip(min=0.0)) / (2 * np.pi),
+        every.imag / every.real,
+        np.concatenate(orders),
+        is_stable,
     )
     chosen = _images(every[is_stable])
     return every[is_stable][chosen], part[is_stable][chosen], diagram

@@ -139,7 +139,9 @@ def columns(window: Window, modes: Modes, neighbours: Modes | None) -> ComplexAr
     rows = [np.ones_like(x), middle / x, (x - middle) / span][: window.terms]
     residual = np.zeros((1, references * window.terms, references, window.values.shape[-1]), dtype=complex)
     for j in range(references):
-        residual[0, j * window.terms : (j + 1) * window.terms, j] = window.binned(np.array(rows, dtype=complex))
+        residual[0, j * window.terms : (j + 1) * window.terms, j] = window.binned(
+            np.array(rows, dtype=complex)
+        )
     every.append(residual)
     points = max(len(part) for part in every)
     return np.concatenate([np.broadcast_to(p, (points, *p.shape[1:])) for p in every], axis=1)
@@ -236,19 +238,46 @@ def _state(window: Window, modes: Modes, neighbours: Modes | None) -> tuple[Wind
     if not len(modes):
         cross = np.zeros((len(linear.chi2), phi.shape[1], 0), dtype=complex)
         return WindowFit(modes, float(linear.chi2.sum()), linear, empty, cross), np.zeros(0, dtype=complex)
+    score, inner, cross = _terms(window, modes, phi, linear, residual)
+    fit = WindowFit(modes, float(linear.chi2.sum()), linear, inner.sum(axis=0), cross)
+    return fit, score.sum(axis=0)
+
+
+def _terms(
+    window: Window, modes: Modes, phi: ComplexArray, linear: Linear, residual: ComplexArray
+) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
+    """Every point's part of the gradient and the Hessian, and the change of its linear unknowns."""
     derivative, owner = _derivatives(window, modes)
-    weights = window.weights.reshape(points, 1, -1)
+    weights = window.weights.reshape(len(window.values), 1, -1)
     flat_d = derivative.reshape(len(derivative), derivative.shape[1], -1)
+    flat = phi.reshape(len(phi), phi.shape[1], -1)
     weighted = flat_d.conj() * weights
-    amplitude = unscaled[:, owner]
-    gradient = np.sum(amplitude.conj() * (weighted @ residual[:, :, None])[..., 0], axis=0)
+    amplitude = (linear.coefficients / linear.norms)[:, owner]
+    score = amplitude.conj() * (weighted @ residual[:, :, None])[..., 0]
     d_phi = (weighted @ flat.transpose(0, 2, 1)) / linear.norms[:, None, :]
     moved = linear.inverse @ d_phi.conj().transpose(0, 2, 1)  # (points, columns, unknowns)
     inner = weighted @ flat_d.transpose(0, 2, 1) - d_phi @ moved
-    hessian = np.einsum("kp,kpq,kq->pq", amplitude.conj(), inner, amplitude)
-    cross = -moved * amplitude[:, None, :]
-    fit = WindowFit(modes, float(linear.chi2.sum()), linear, hessian, cross)
-    return fit, gradient
+    inner = amplitude.conj()[:, :, None] * inner * amplitude[:, None, :]
+    return score, inner, -moved * amplitude[:, None, :]
+
+
+def shift_terms(
+    window: Window, modes: Modes, neighbours: Modes | None
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Of every point: χ², half its negative slope and half its curvature over the point's frequency shift."""
+    phi = columns(window, modes, neighbours)
+    linear = solve_linear(window, phi)
+    flat = phi.reshape(len(phi), phi.shape[1], -1)
+    residual = window.values.reshape(len(window.values), -1)
+    residual = residual - ((linear.coefficients / linear.norms)[:, None] @ flat)[:, 0]
+    score, inner, _ = _terms(window, modes, phi, linear, residual)
+    count = len(modes)
+    shift = np.zeros(len(residual)) if modes.shift is None else modes.shift
+    # ∂/∂δ = Σ_m 2 s_m/(1 + δ) ∂/∂s_m
+    chain = 2 * modes.poles[None] / (1 + shift[:, None])
+    slope = np.einsum("km,km->k", chain.conj(), score[:, :count]).real
+    curvature = np.einsum("km,kmn,kn->k", chain.conj(), inner[:, :count, :count], chain).real
+    return linear.chi2, slope, curvature
 
 
 def residual_correlation(window: Window, residual: ComplexArray) -> float:
@@ -292,7 +321,9 @@ def _step(fit: WindowFit, gradient: ComplexArray, damping: float) -> ComplexArra
     diagonal = np.sqrt(np.where(size > _RANK * size.max(initial=0.0), size, np.inf))
     scaled = fit.hessian / np.outer(diagonal, diagonal)
     scaled = scaled + damping * np.eye(len(diagonal))
-    step: ComplexArray = np.linalg.pinv(scaled, rcond=_RANK, hermitian=True) @ (gradient / diagonal) / diagonal
+    step: ComplexArray = (
+        np.linalg.pinv(scaled, rcond=_RANK, hermitian=True) @ (gradient / diagonal) / diagonal
+    )
     return step
 
 
