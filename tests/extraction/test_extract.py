@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from synthetic_frfs import frf_set, ring_points, ring_shape
 
 from statorhom.errors import ExtractionError
 from statorhom.extraction import Extraction, extract
 from statorhom.modes.mac import mac, subspace_mac
 from statorhom.recordings.frf_set import FrfSet
+from synthetic_frfs import frf_set, ring_points, ring_shape
 
 POINTS = ring_points(12, 2)
 AXIS = np.arange(800.0, 1600.0)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from synthetic_frfs import frf_set, ring_points, ring_shape
 
 from statorhom.extraction import extract, local_poles
+from synthetic_frfs import frf_set, ring_points, ring_shape
 
 POINTS = ring_points(8, 2)
 AXIS = np.arange(900.0, 1300.0)

@@ -50,8 +50,8 @@ class CircleFit:
     def receptance(self, frequency_hz: npt.ArrayLike) -> ComplexArray:
         """The mode's part of the receptance (m/N), as in equation [7] with iη_r ω_r² in the denominator."""
         square = (2 * np.pi * self.frequency_hz) ** 2
-        omega = 2 * np.pi * np.asarray(frequency_hz, dtype=float)
-        part: ComplexArray = self.modal_constant_per_kg / (square * (1 + 1j * self.loss_factor) - omega**2)
+        squared = (2 * np.pi * np.asarray(frequency_hz, dtype=np.float64)) ** 2
+        part: ComplexArray = self.modal_constant_per_kg / (square * (1 + 1j * self.loss_factor) - squared)
         return part
 
 

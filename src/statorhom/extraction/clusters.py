@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import numpy.typing as npt
 
@@ -68,7 +70,7 @@ def tiles(covered: list[slice], lines: int) -> list[slice]:
         begin, end = max(0, begin - short), min(lines, end + short)
         count = int(np.ceil((end - begin) / _TILE))
         cuts = np.linspace(begin, end, count + 1).astype(int)
-        result += [slice(int(a), int(b)) for a, b in zip(cuts[:-1], cuts[1:], strict=True)]
+        result += [slice(int(a), int(b)) for a, b in pairwise(cuts)]
     return result
 
 

@@ -44,7 +44,7 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
     grid = point_grid(sets, band_hz)
     sd = noise_sd(grid)
     poles, parts, stabilization = stabilize(grid, sd)
-    search = ModeSearch(grid, sd, poles, parts)
+    search = ModeSearch(grid, sd, poles, parts, stabilization.stable_squared)
     decay = float(np.mean([one.window_decay_per_s for one in sets]))
     found = [mode for fitted in search.run() for mode in mode_estimates(fitted, grid, stabilization, decay)]
     found.sort(key=lambda mode: mode.frequency_hz)

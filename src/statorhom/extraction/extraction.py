@@ -85,9 +85,7 @@ class ExtractedMode:
         squared = (2 * np.pi * np.asarray(frequency_hz, dtype=float)) ** 2
         shift = np.zeros(1) if self.point_shift is None else self.point_shift
         curve = 1.0 / (self.observed * (1 + shift[:, None]) ** 2 - squared)
-        part: ComplexArray = (
-            self.shape[:, None, None] * self.participation[None, :, None] * curve[:, None, :]
-        )
+        part: ComplexArray = self.shape[:, None, None] * self.participation[None, :, None] * curve[:, None, :]
         return part
 
 

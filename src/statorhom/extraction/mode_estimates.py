@@ -8,8 +8,8 @@ import numpy.typing as npt
 from statorhom.extraction.complexity import in_phase, phase_collinearity
 from statorhom.extraction.extraction import ExtractedMode
 from statorhom.extraction.mode_search import FittedWindow
-from statorhom.extraction.pole_price import dispersion
 from statorhom.extraction.point_grid import PointGrid
+from statorhom.extraction.pole_price import dispersion
 from statorhom.extraction.stabilization import Stabilization
 from statorhom.extraction.window_fit import free_parts
 from statorhom.recordings.dof import Dof

@@ -26,22 +26,21 @@ _OVERLAP = 3.0  # bandwidths within which shifted images of one mode lie
 
 def with_shifts(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
     """The fit itself, or one with fewer modes and a shift at every point where that is the better bargain."""
-    best = fit
-    while len(best.modes) > 1:
-        weaker = _weaker_image(best)
-        if weaker is None:
-            break
-        trial = _fit_shifted(window, best.modes.without(weaker), neighbours)
-        if _cost(window, trial, best) >= _cost(window, best, trial):
-            break
-        best = trial
+    best = smaller = fit
+    while (weaker := _weaker_image(smaller)) is not None:
+        # one removal may not pay where the next one does: three images of one mode
+        smaller = _fit_shifted(window, smaller.modes.without(weaker), neighbours)
+        if _cost(window, smaller, best) < _cost(window, best, smaller):
+            best = smaller
     return best
 
 
 def _weaker_image(fit: WindowFit) -> int | None:
     """The weakest mode that overlaps with a stronger one; None where none does."""
     poles = fit.modes.poles
-    strength = np.linalg.norm((fit.linear.coefficients / fit.linear.norms)[:, : len(poles)], axis=0) / poles.imag
+    strength = (
+        np.linalg.norm((fit.linear.coefficients / fit.linear.norms)[:, : len(poles)], axis=0) / poles.imag
+    )
     for m in np.argsort(strength).tolist():
         near = np.abs(poles.real - poles[m].real) < _OVERLAP * poles.imag
         if np.any(near & (strength > strength[m])):
@@ -63,7 +62,9 @@ def _fit_shifted(window: Window, modes: Modes, neighbours: Modes) -> WindowFit:
         points = len(window.values)
         starts = 0.5 * _STARTS * loss
         chi2 = [
-            solve_linear(window, linear_columns(window, replace(modes, shift=np.full(points, one)), neighbours)).chi2
+            solve_linear(
+                window, linear_columns(window, replace(modes, shift=np.full(points, one)), neighbours)
+            ).chi2
             for one in starts
         ]
         modes = _centred(replace(modes, shift=starts[np.argmin(chi2, axis=0)]))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.extraction.plscf import PlscfPoles, plscf
+from statorhom.extraction.plscf import plscf
 from statorhom.extraction.point_grid import PointGrid
 
 FloatArray = npt.NDArray[np.float64]
@@ -37,6 +37,13 @@ class Stabilization:
     loss_factor: FloatArray
     order: npt.NDArray[np.int_]
     stable: npt.NDArray[np.bool_]
+
+    @property
+    def stable_squared(self) -> ComplexArray:
+        """ω²(1 + iη) of the stable poles ((rad/s)²)."""
+        square = (2 * np.pi * self.frequency_hz[self.stable]) ** 2
+        poles: ComplexArray = square * (1 + 1j * self.loss_factor[self.stable])
+        return poles
 
 
 def stabilize(grid: PointGrid, sd: FloatArray) -> tuple[ComplexArray, ComplexArray, Stabilization]:

@@ -19,6 +19,7 @@ ComplexArray = npt.NDArray[np.complex128]
 
 _RANK = 1e-12  # eigenvalues of scaled normal matrices below this are zero
 _ITERATIONS = 25
+_TRIES = 4  # dampings tried for one step
 _CONVERGED = 1e-3  # decrease of χ² that is worth a further step, per unknown: 3 % of a standard deviation
 _CONVERGED_MISFIT = 1e-6  # the same relative to χ², where misfit exceeds the noise by far
 _LARGEST_STEP = 0.7  # of a pole, in units of its half-power bandwidth
@@ -208,14 +209,14 @@ def fit_window(
     for _ in range(iterations if len(modes) else 0):
         fit, gradient = state
         accepted = None
-        for _ in range(8):
+        for _ in range(_TRIES):
             step = _step(fit, gradient, damping)
             trial = _moved(fit.modes, step)
             candidate = _state(window, trial, neighbours)
             if candidate[0].chi2 <= fit.chi2:  # never for NaN
                 accepted = candidate
                 break
-            damping *= 8.0
+            damping *= 16.0
         if accepted is None:
             break
         gained = fit.chi2 - accepted[0].chi2
