@@ -51,8 +51,8 @@ class CircleFit:
         """The mode's part of the receptance (m/N), as in equation [7] with iη_r ω_r² in the denominator."""
         square = (2 * np.pi * self.frequency_hz) ** 2
         squared = (2 * np.pi * np.asarray(frequency_hz, dtype=np.float64)) ** 2
-        part: ComplexArray = self.modal_constant_per_kg / (square * (1 + 1j * self.loss_factor) - squared)
-        return part
+        pole = square * (1 + 1j * self.loss_factor)
+        return np.asarray(self.modal_constant_per_kg / (pole - squared), dtype=np.complex128)
 
 
 @dataclass(frozen=True)
@@ -177,5 +177,4 @@ def regenerate(model: SdofModel, frequency_hz: npt.ArrayLike) -> ComplexArray:
     total = model.mass_line / (2 * np.pi * frequency) ** 2 + model.stiffness_line
     for mode in model.modes:
         total = total + mode.receptance(frequency)
-    result: ComplexArray = total
-    return result
+    return np.asarray(total, dtype=np.complex128)

@@ -17,5 +17,4 @@ FloatArray = npt.NDArray[np.float64]
 def cmif(grid: PointGrid) -> FloatArray:
     """Singular values of the receptance matrix (m/N), largest first, shape (min(points, references), lines)."""
     matrices = np.moveaxis(grid.receptance, -1, 0)
-    values: FloatArray = np.linalg.svd(matrices, compute_uv=False).T
-    return values
+    return np.asarray(np.linalg.svd(matrices, compute_uv=False).T, dtype=np.float64)

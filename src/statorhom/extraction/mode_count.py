@@ -9,9 +9,10 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from statorhom.extraction.modal_model import Modes, Window
 from statorhom.extraction.pole_price import dispersion, price
 from statorhom.extraction.pole_search import best_candidates, trial_poles
-from statorhom.extraction.window_fit import Modes, Window, WindowFit, fit_window
+from statorhom.extraction.window_fit import WindowFit, fit_window
 
 ComplexArray = npt.NDArray[np.complex128]
 

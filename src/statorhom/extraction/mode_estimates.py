@@ -7,11 +7,11 @@ import numpy.typing as npt
 
 from statorhom.extraction.complexity import in_phase, phase_collinearity
 from statorhom.extraction.extraction import ExtractedMode
+from statorhom.extraction.modal_model import free_parts
 from statorhom.extraction.mode_search import FittedWindow
 from statorhom.extraction.point_grid import PointGrid
 from statorhom.extraction.pole_price import dispersion
 from statorhom.extraction.stabilization import Stabilization
-from statorhom.extraction.window_fit import free_parts
 from statorhom.recordings.dof import Dof
 
 FloatArray = npt.NDArray[np.float64]

@@ -13,10 +13,11 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.extraction.clusters import cluster_lines, clusters, nearest, tiles
+from statorhom.extraction.modal_model import Modes, Window, unit_part
 from statorhom.extraction.mode_count import grow, prune
 from statorhom.extraction.point_grid import PointGrid
 from statorhom.extraction.point_shifts import with_shifts
-from statorhom.extraction.window_fit import Modes, Window, WindowFit, fit_window, unit_part
+from statorhom.extraction.window_fit import WindowFit, fit_window
 
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]

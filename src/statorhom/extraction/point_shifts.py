@@ -12,9 +12,10 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from statorhom.extraction.modal_model import Modes, Window, solve_linear
+from statorhom.extraction.modal_model import columns as linear_columns
 from statorhom.extraction.pole_price import dispersion, price, unknown_price
-from statorhom.extraction.window_fit import Modes, Window, WindowFit, fit_window, shift_terms, solve_linear
-from statorhom.extraction.window_fit import columns as linear_columns
+from statorhom.extraction.window_fit import WindowFit, fit_window, shift_terms
 
 FloatArray = npt.NDArray[np.float64]
 

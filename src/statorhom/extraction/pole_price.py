@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from statorhom.extraction.window_fit import Window, WindowFit
+from statorhom.extraction.modal_model import Window
+from statorhom.extraction.window_fit import WindowFit
 
 _LEAST_DISPERSION = 0.1  # the noise may be overestimated at sharp peaks, but not by more
 

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.extraction.window_fit import Modes, Window, WindowFit, columns
+from statorhom.extraction.modal_model import Modes, Window, columns
+from statorhom.extraction.window_fit import WindowFit
 
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
