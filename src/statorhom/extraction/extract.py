@@ -1,0 +1,111 @@
+"""From FRFs to modes with uncertainty."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from statorhom.extraction.extraction import ExtractedMode, Extraction, residual_lines
+from statorhom.extraction.mode_estimates import mode_estimates
+from statorhom.extraction.mode_search import ModeSearch
+from statorhom.extraction.noise import noise_sd
+from statorhom.extraction.point_grid import PointGrid, point_grid
+from statorhom.extraction.stabilization import stabilize
+from statorhom.recordings.frf_set import FrfSet
+
+FloatArray = npt.NDArray[np.float64]
+ComplexArray = npt.NDArray[np.complex128]
+
+_LOCATED = 0.5  # largest standard deviation of a mode's frequency, in half-power bandwidths
+
+
+def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | None = None) -> Extraction:
+    """Modes of a test from its FRFs.
+
+    Start values are the stable poles of the poly-reference least-squares complex frequency estimator; every
+    cluster of modes is then fitted by maximum likelihood, and modes are removed and added until each is worth
+    its unknowns.
+
+    Parameters
+    ----------
+    frf_sets : FrfSet or sequence of FrfSet
+        One test; repeated pairs of points are averaged, and three or more tell the noise.
+    band_hz : (low, high), optional
+        Lines to use; all by default.
+
+    Raises
+    ------
+    ExtractionError
+        When frequency axes differ, the band holds too few lines or no finite value.
+    """
+    sets = [frf_sets] if isinstance(frf_sets, FrfSet) else list(frf_sets)
+    grid = point_grid(sets, band_hz)
+    sd = noise_sd(grid)
+    poles, parts, stabilization = stabilize(grid, sd)
+    search = ModeSearch(grid, sd, poles, parts, stabilization.stable_squared)
+    decay = float(np.mean([one.window_decay_per_s for one in sets]))
+    found = [mode for fitted in search.run() for mode in mode_estimates(fitted, grid, stabilization, decay)]
+    found.sort(key=lambda mode: mode.frequency_hz)
+    band = (float(grid.omega[0] / (2 * np.pi)), float(grid.omega[-1] / (2 * np.pi)))
+    modes = tuple(mode for mode in found if _is_mode(mode, band))
+    outside = tuple(mode for mode in found if not _is_mode(mode, band))
+    mass_line, stiffness_line = _residual_terms(grid, sd, found)
+    return Extraction(
+        modes,
+        outside,
+        grid.points,
+        grid.references,
+        grid.hammer_roved,
+        grid.cells,
+        band,
+        mass_line,
+        stiffness_line,
+        float(np.median((sd / np.maximum(np.abs(grid.receptance), np.finfo(float).tiny))[grid.measured])),
+        stabilization,
+        tuple(_remarks(modes, outside, band)),
+    )
+
+
+def _is_mode(mode: ExtractedMode, band: tuple[float, float]) -> bool:
+    return band[0] <= mode.frequency_hz <= band[1] and mode.frequency_sd_hz < _LOCATED * mode.bandwidth_hz
+
+
+def _residual_terms(
+    grid: PointGrid, sd: FloatArray, modes: Sequence[ExtractedMode]
+) -> tuple[ComplexArray, ComplexArray]:
+    """Mass line and stiffness line of every pair: weighted least squares on what the modes leave."""
+    frequency = grid.omega / (2 * np.pi)
+    rest = grid.receptance.copy()
+    for mode in modes:
+        rest -= mode.receptance(frequency)
+    shape = rest.shape[:2]
+    one, none = np.ones(shape, dtype=complex), np.zeros(shape, dtype=complex)
+    columns = np.stack([residual_lines(one, none, frequency), residual_lines(none, one, frequency)], axis=-1)
+    # the misfit of strong modes is part of what the terms must not chase
+    weight = np.where(grid.measured, 1.0 / np.hypot(sd, np.abs(rest)), 0.0)[..., None]
+    norm = np.maximum(np.linalg.norm(columns * weight, axis=-2, keepdims=True), np.finfo(float).tiny)
+    scaled = columns * weight / norm
+    gram = scaled.conj().swapaxes(-1, -2) @ scaled
+    right = scaled.conj().swapaxes(-1, -2) @ (rest[..., None] * weight)
+    solution = (np.linalg.pinv(gram, rcond=1e-12, hermitian=True) @ right)[..., 0] / norm[..., 0, :]
+    return solution[..., 0], solution[..., 1]
+
+
+def _remarks(
+    modes: tuple[ExtractedMode, ...], outside: tuple[ExtractedMode, ...], band: tuple[float, float]
+) -> list[str]:
+    remarks = []
+    for mode in outside:
+        if band[0] <= mode.frequency_hz <= band[1]:
+            remarks.append(
+                f"near {mode.frequency_hz:.1f} Hz the data ask for a mode that they do not locate; it is not listed"
+            )
+    for mode in modes:
+        if mode.loss_factor <= 0:
+            remarks.append(
+                f"the mode at {mode.frequency_hz:.1f} Hz is damped less than the exponential window alone would "
+                "damp it: check the window's decay"
+            )
+    return remarks

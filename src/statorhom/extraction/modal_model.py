@@ -1,0 +1,177 @@
+"""Modes of a window of lines, and the linear least squares over shapes and residual terms at given poles.
+
+Model of the receptance between point k and reference j, with structural damping (equation [7] of the
+stator's paper without its misprints): Σ_m φ_mk L_mj / (s_m(1 + δ_k)² − ω²) + residual terms of every
+reference, s_m = ω_m²(1 + iη_m).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+ComplexArray = npt.NDArray[np.complex128]
+
+RANK = 1e-12
+"""Eigenvalues of scaled normal matrices below this are zero."""
+
+
+@dataclass(frozen=True)
+class Window:
+    """Data of a window: receptances of all points, references and lines, scaled.
+
+    Attributes
+    ----------
+    squared : array, shape (lines · bin,)
+        ω² over `unit`.
+    values, weights : arrays, shape (points, references, lines)
+        Receptances, means over bins of neighbouring lines, and their inverse variances; weight 0 where
+        nothing was measured. The model is averaged over the same lines, so that bins cost no accuracy.
+    unit : float
+        (rad/s)² of one unit of `squared`.
+    terms : int
+        Residual terms of each reference: 1/ω², 1, ω² (in this order of need).
+    """
+
+    squared: FloatArray
+    values: ComplexArray
+    weights: FloatArray
+    unit: float
+    terms: int = 3
+
+    @property
+    def bin(self) -> int:
+        """Lines of a bin."""
+        return len(self.squared) // self.values.shape[-1]
+
+    @property
+    def omega(self) -> FloatArray:
+        """Angular frequencies over the root of `unit`, ascending."""
+        root: FloatArray = np.sqrt(self.squared)
+        return root
+
+    def binned(self, curves: ComplexArray) -> ComplexArray:
+        """Curves over `squared`, averaged over the bins."""
+        if self.bin == 1:
+            return curves
+        mean: ComplexArray = curves.reshape(*curves.shape[:-1], self.values.shape[-1], self.bin).mean(axis=-1)
+        return mean
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Poles and participations, in a window's units.
+
+    Attributes
+    ----------
+    poles : complex array, shape (modes,)
+    parts : complex array, shape (modes, references)
+        Participations, the largest component of each equal to 1.
+    shift : array, shape (points,), or None
+        Relative frequency shift of all poles at every point.
+    """
+
+    poles: ComplexArray
+    parts: ComplexArray
+    shift: FloatArray | None = None
+
+    def __len__(self) -> int:
+        return len(self.poles)
+
+    def without(self, index: int) -> Modes:
+        return replace(self, poles=np.delete(self.poles, index), parts=np.delete(self.parts, index, axis=0))
+
+    def with_mode(self, pole: complex, part: ComplexArray) -> Modes:
+        return replace(
+            self, poles=np.append(self.poles, pole), parts=np.concatenate([self.parts, unit_part(part)[None]])
+        )
+
+
+@dataclass(frozen=True)
+class Linear:
+    """Eliminated unknowns at given poles and what the fit needs of them.
+
+    Attributes
+    ----------
+    chi2 : array, shape (points,)
+        Σ |residual|²/variance.
+    coefficients : complex array, shape (points, columns)
+        Of the columns (modes, neighbours, residual terms), which were scaled to unit norm.
+    inverse : complex array, shape (points, columns, columns)
+        Their covariance.
+    norms : array, shape (points, columns)
+    correlation : float
+        Integrated autocorrelation of the weighted residuals along the lines, at least 1: about 1 for noise,
+        more where the model misses something smooth.
+    """
+
+    chi2: FloatArray
+    coefficients: ComplexArray
+    inverse: ComplexArray
+    norms: FloatArray
+    correlation: float = 1.0
+
+
+def unit_part(part: ComplexArray) -> ComplexArray:
+    """Participation scaled to 1 at its largest component."""
+    scaled: ComplexArray = part / part[np.argmax(np.abs(part))]
+    return scaled
+
+
+def columns(window: Window, modes: Modes, neighbours: Modes | None) -> ComplexArray:
+    """Columns of the linear problem, shape (1 or points, columns, references, lines)."""
+    x = window.squared
+    references = window.values.shape[1]
+    every = [modal_columns(window, modes)]
+    if neighbours is not None and len(neighbours):
+        every.append(modal_columns(window, neighbours))
+    middle = float(x[len(x) // 2])
+    span = float(x[-1] - x[0])
+    rows = [np.ones_like(x), middle / x, (x - middle) / span][: window.terms]
+    residual = np.zeros((1, references * window.terms, references, window.values.shape[-1]), dtype=complex)
+    for j in range(references):
+        residual[0, j * window.terms : (j + 1) * window.terms, j] = window.binned(
+            np.array(rows, dtype=complex)
+        )
+    every.append(residual)
+    points = max(len(part) for part in every)
+    return np.concatenate([np.broadcast_to(p, (points, *p.shape[1:])) for p in every], axis=1)
+
+
+def modal_columns(window: Window, modes: Modes, power: int = 1) -> ComplexArray:
+    """L/(s − ω²)^power of every mode, shape (1 or points, modes, references, lines)."""
+    poles = modes.poles[None]
+    if modes.shift is not None:
+        poles = poles * (1 + modes.shift[:, None]) ** 2
+    curve = window.binned((poles[..., None] - window.squared) ** -power)
+    result: ComplexArray = modes.parts[None, :, :, None] * curve[:, :, None, :]
+    return result
+
+
+def solve_linear(window: Window, phi: ComplexArray) -> Linear:
+    """Least squares over the columns at every point."""
+    points = len(window.values)
+    flat = phi.reshape(len(phi), phi.shape[1], -1)
+    weights = window.weights.reshape(points, 1, -1)
+    values = window.values.reshape(points, -1)
+    weighted = flat.conj() * weights
+    gram = weighted @ flat.transpose(0, 2, 1)
+    right = (weighted @ values[:, :, None])[..., 0]
+    diagonal = np.sqrt(np.maximum(np.einsum("kcc->kc", gram).real, np.finfo(float).tiny))
+    gram = gram / (diagonal[:, :, None] * diagonal[:, None, :])
+    inverse = np.linalg.pinv(gram, rcond=RANK, hermitian=True)
+    scaled = right / diagonal
+    coefficients = np.einsum("kab,kb->ka", inverse, scaled)
+    energy = np.sum(weights[:, 0] * np.abs(values) ** 2, axis=1)
+    chi2 = energy - np.einsum("ka,ka->k", scaled.conj(), coefficients).real
+    return Linear(np.maximum(chi2, 0.0), coefficients, inverse, diagonal)
+
+
+def free_parts(modes: Modes) -> npt.NDArray[np.int_]:
+    """(mode, reference) of every participation that is not the fixed 1."""
+    fixed = np.argmax(np.abs(modes.parts), axis=1)
+    pairs = [(m, j) for m in range(len(modes)) for j in range(modes.parts.shape[1]) if j != fixed[m]]
+    return np.array(pairs, dtype=int).reshape(-1, 2)

@@ -1,0 +1,132 @@
+"""How many modes a window holds: which to drop, which to add.
+
+A mode must raise the likelihood by more than the price of its unknowns (Bayesian information criterion,
+Schwarz 1978), bring a shape of its own and be a pole that the window can show.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from statorhom.extraction.modal_model import Modes, Window
+from statorhom.extraction.pole_price import dispersion, price
+from statorhom.extraction.pole_search import best_candidates, trial_poles
+from statorhom.extraction.window_fit import WindowFit, fit_window
+
+ComplexArray = npt.NDArray[np.complex128]
+
+_MOST_NEW = 5  # modes per window and sweep
+_HOPELESS = 0.3  # of the price: a candidate that promises less before its pole is optimized is left
+_OUTSIDE = 0.5  # of a window's width that a pole may lie beyond it
+_CANDIDATES = 2
+_TRIAL_ITERATIONS = 12  # the sweeps refine what is kept
+_SAME_SHAPE = 0.95  # MAC
+_FLANK = 10.0  # bandwidths over which a mode's own curve may be inexact …
+_LEAST_BESIDE = 0.1  # … by this part
+
+
+def prune(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
+    """Remove, the weakest first, modes whose shape does not stand out of its uncertainty."""
+    while len(fit.modes):
+        count = len(fit.modes)
+        variance = np.einsum("kcc->kc", fit.linear.inverse).real[:, :count]
+        square = np.abs(fit.linear.coefficients[:, :count]) ** 2
+        # a point without data in the window has neither coefficient nor variance
+        worth = (
+            2 * np.sum(square / np.where(variance > 0, variance, np.inf), axis=0) / dispersion(window, fit)
+        )
+        weakest = int(np.argmin(worth))
+        doubtful = [
+            m
+            for m in range(count)
+            if not plausible(window, fit.modes.poles[m]) or repeats(fit, neighbours, m)
+        ]
+        if doubtful:
+            weakest = min(doubtful, key=lambda m: worth[m])
+        elif worth[weakest] > price(window):
+            break
+        fit = fit_window(window, fit.modes.without(weakest), neighbours)
+    return fit
+
+
+def grow(
+    window: Window, fit: WindowFit, neighbours: Modes, stable: ComplexArray, reach: tuple[float, float]
+) -> WindowFit:
+    """Add modes while each is worth its price.
+
+    Parameters
+    ----------
+    stable : complex array, shape (poles,)
+        Stable poles of the start estimator, in the window's unit: a mode apart from all others must show among
+        them too, for ripples of a real recording can be worth a pole's price.
+    reach : (below, above)
+        How far beyond the window, in its width, poles are looked for.
+    """
+    for _ in range(_MOST_NEW):
+        larger = _larger(window, fit, neighbours, stable, reach)
+        if larger is None:
+            break
+        fit = larger
+    return fit
+
+
+def _larger(
+    window: Window, fit: WindowFit, neighbours: Modes, stable: ComplexArray, reach: tuple[float, float]
+) -> WindowFit | None:
+    """Fit with one mode more, from the most promising candidate that holds; None where none does."""
+    known = np.concatenate([fit.modes.poles, neighbours.poles])
+    trials = trial_poles(window, known, reach)
+    for candidate in best_candidates(window, fit, neighbours, trials, _CANDIDATES):
+        if 2 * candidate.gain / dispersion(window, fit) < _HOPELESS * price(window):
+            return None
+        larger = fit_window(
+            window, fit.modes.with_mode(candidate.pole, candidate.part), neighbours, _TRIAL_ITERATIONS
+        )
+        gain = 2 * (fit.chi2 - larger.chi2) / dispersion(window, larger)
+        if gain < price(window):
+            return None
+        beyond = not window.squared[0] < larger.modes.poles[-1].real < window.squared[-1]
+        seen = beyond or _near(larger.modes.poles[-1], np.concatenate([known, stable]))
+        physical = seen and all(plausible(window, pole) for pole in larger.modes.poles)
+        if physical and not any(repeats(larger, neighbours, m) for m in range(len(larger.modes))):
+            return larger
+    return None
+
+
+def _near(pole: complex, others: ComplexArray) -> bool:
+    return bool(np.any(np.abs(others.real - pole.real) < np.maximum(others.imag, pole.imag)))
+
+
+def repeats(fit: WindowFit, neighbours: Modes, index: int) -> bool:
+    """Whether a mode is but a correction of a stronger one nearby.
+
+    Distinct modes that overlap differ in shape. A pole with its neighbour's shape, within the neighbour's
+    bandwidth or far below the neighbour's own curve, is what a frequency that shifts from set-up to set-up or
+    a resonance curve that is not exactly rational leaves over.
+    """
+    poles = np.concatenate([fit.modes.poles, neighbours.poles])
+    shapes = (fit.linear.coefficients / fit.linear.norms)[:, : len(poles)]
+    size = np.linalg.norm(shapes, axis=0) * np.linalg.norm(
+        np.concatenate([fit.modes.parts, neighbours.parts]), axis=1
+    )
+    strength = size / poles.imag
+    norm = np.maximum(np.linalg.norm(shapes, axis=0), np.finfo(float).tiny)
+    mac = np.abs(shapes[:, index].conj() @ shapes / norm[index] / norm) ** 2
+    distance = np.abs(poles.real - poles[index].real)
+    curve = size / np.abs(poles - poles[index].real)
+    overlap = distance < np.maximum(poles.imag, poles[index].imag)
+    beside = (distance < _FLANK * poles.imag) & (strength[index] < _LEAST_BESIDE * curve)
+    stronger = strength > strength[index]
+    return bool(np.any((mac > _SAME_SHAPE) & stronger & (overlap | beside)))
+
+
+def plausible(window: Window, pole: complex) -> bool:
+    """Whether a pole lies in the window and is neither broader than it nor narrower than a line."""
+    if pole.real <= 0:
+        return False
+    omega = window.omega
+    frequency, width = np.sqrt(pole.real), np.sqrt(pole.real) * pole.imag / pole.real
+    span = float(omega[-1] - omega[0])
+    inside = omega[0] - _OUTSIDE * span <= frequency <= omega[-1] + _OUTSIDE * span
+    return bool(inside and 0.5 * span / (len(omega) - 1) < width < span)

@@ -1,0 +1,142 @@
+"""Finds as many modes as the data carry: fit, remove, add, window by window, until nothing changes.
+
+The number of modes follows from the Bayesian information criterion (Schwarz 1978): a mode must raise the
+likelihood by more than the price of its unknowns, a pole and one residue per point, with a misfit beyond the
+noise counted as noise.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from statorhom.extraction.clusters import cluster_lines, clusters, nearest, tiles
+from statorhom.extraction.modal_model import Modes, Window, unit_part
+from statorhom.extraction.mode_count import grow, prune
+from statorhom.extraction.point_grid import PointGrid
+from statorhom.extraction.point_shifts import with_shifts
+from statorhom.extraction.window_fit import WindowFit, fit_window
+
+FloatArray = npt.NDArray[np.float64]
+ComplexArray = npt.NDArray[np.complex128]
+
+_SWEEPS = 4
+_BINS_PER_BANDWIDTH = 8
+_ENOUGH_BINS = 250
+_REACH = 0.3  # of a window's width
+_SEEN = 0.1  # bandwidths
+_SETTLED = 0.01  # bandwidths that a pole may still move
+
+
+@dataclass(frozen=True)
+class FittedWindow:
+    """A cluster of modes with its data and fit; `own` are its modes' places among all modes."""
+
+    lines: slice
+    window: Window
+    fit: WindowFit
+    neighbours: Modes
+    own: tuple[int, ...]
+
+
+class ModeSearch:
+    """State of a search over one grid: data, noise and the modes so far."""
+
+    def __init__(
+        self, grid: PointGrid, sd: FloatArray, poles: ComplexArray, parts: ComplexArray, stable: ComplexArray
+    ) -> None:
+        self.unit = float(grid.omega[-1] ** 2)
+        self.grid = grid
+        self.stable = stable / self.unit
+        self.variance = np.where(grid.measured, sd**2.0, np.inf)
+        self.visited: list[tuple[slice, ComplexArray]] = []
+        self.modes = Modes(
+            poles / self.unit,
+            np.array([unit_part(p) for p in parts]).reshape(len(poles), len(grid.references)),
+        )
+
+    def run(self) -> list[FittedWindow]:
+        """Sweep until the modes settle; the windows of the clusters with their last fits."""
+        for _ in range(_SWEEPS):
+            before = self.modes
+            self._sweep()
+            if _settled(before, self.modes):
+                break
+        fitted = [self._fitted(own) for own in clusters(self.modes.poles)]
+        return [replace(one, fit=with_shifts(one.window, one.fit, one.neighbours)) for one in fitted]
+
+    def _window(self, lines: slice) -> Window:
+        squared = self.grid.omega[lines] ** 2 / self.unit
+        size = self._bin(squared)
+        count = len(squared) // size * size
+        shape = (*self.grid.receptance.shape[:2], -1, size)
+        values = self.grid.receptance[..., lines][..., :count].reshape(shape).mean(axis=-1)
+        variance = self.variance[..., lines][..., :count].reshape(shape).mean(axis=-1) / size
+        return Window(squared[:count], values, 1.0 / variance, self.unit)
+
+    def _bin(self, squared: FloatArray) -> int:
+        """Lines of a bin: a small part of the narrowest bandwidth inside, and no more than a long window needs."""
+        poles = self.modes.poles[(self.modes.poles.real > squared[0]) & (self.modes.poles.real < squared[-1])]
+        spacing = (np.sqrt(squared[-1]) - np.sqrt(squared[0])) / (len(squared) - 1)
+        narrowest = float(np.min(poles.imag / np.sqrt(poles.real), initial=np.inf)) / spacing
+        return int(max(1, min(narrowest / _BINS_PER_BANDWIDTH, len(squared) / _ENOUGH_BINS)))
+
+    def _neighbours(self, own: list[int], lines: slice) -> Modes:
+        beside = nearest(self.modes.poles, own, lines, self.grid.omega / np.sqrt(self.unit))
+        return Modes(self.modes.poles[beside], self.modes.parts[beside])
+
+    def _fitted(self, own: list[int]) -> FittedWindow:
+        lines = cluster_lines(self.modes.poles[own], self.grid.omega / np.sqrt(self.unit))
+        window, neighbours = self._window(lines), self._neighbours(own, lines)
+        fit = fit_window(window, Modes(self.modes.poles[own], self.modes.parts[own]), neighbours)
+        return FittedWindow(lines, window, fit, neighbours, tuple(own))
+
+    def _sweep(self) -> None:
+        omega = self.grid.omega / np.sqrt(self.unit)
+        groups = clusters(self.modes.poles)
+        windows = [cluster_lines(self.modes.poles[own], omega) for own in groups]
+        for own, lines in zip(groups, windows, strict=True):
+            self._improve(own, lines)
+        keep = ~np.isnan(self.modes.poles)
+        self.modes = Modes(self.modes.poles[keep], self.modes.parts[keep])
+        groups = clusters(self.modes.poles)
+        for lines in tiles([cluster_lines(self.modes.poles[own], omega) for own in groups], len(omega)):
+            self._improve([], lines)
+
+    def _reach(self, lines: slice) -> tuple[float, float]:
+        """How far beyond a window modes are looked for: beyond the ends of the data they are residual terms."""
+        return (_REACH * (lines.start == 0), _REACH * (lines.stop == len(self.grid.omega)))
+
+    def _exhausted(self, lines: slice, modes: Modes, neighbours: Modes) -> bool:
+        """Whether this window was searched before among the same poles."""
+        poles = np.sort_complex(np.concatenate([modes.poles, neighbours.poles]))
+        slack = 0.05 * (lines.stop - lines.start)
+        return any(
+            abs(lines.start - seen.start) <= slack
+            and abs(lines.stop - seen.stop) <= slack
+            and len(known) == len(poles)
+            and bool(np.all(np.abs(known - poles) < _SEEN * poles.imag))
+            for seen, known in self.visited
+        )
+
+    def _improve(self, own: list[int], lines: slice) -> None:
+        """Fit one window, drop modes that are not worth their price and add those that are."""
+        window, neighbours = self._window(lines), self._neighbours(own, lines)
+        fit = fit_window(window, Modes(self.modes.poles[own], self.modes.parts[own]), neighbours)
+        fit = prune(window, fit, neighbours)
+        if not self._exhausted(lines, fit.modes, neighbours):
+            fit = grow(window, fit, neighbours, self.stable, self._reach(lines))
+            self.visited.append((lines, np.sort_complex(np.concatenate([fit.modes.poles, neighbours.poles]))))
+        # poles that are gone are marked, so that the places of the others stay; the sweep's end removes them
+        poles, parts = self.modes.poles.copy(), self.modes.parts
+        poles[own] = np.nan
+        self.modes = Modes(np.concatenate([poles, fit.modes.poles]), np.concatenate([parts, fit.modes.parts]))
+
+
+def _settled(before: Modes, after: Modes) -> bool:
+    if len(before) != len(after) or not len(after):
+        return len(before) == len(after)
+    a, b = np.sort_complex(before.poles), np.sort_complex(after.poles)
+    return bool(np.all(np.abs(a - b) < _SETTLED * b.imag))

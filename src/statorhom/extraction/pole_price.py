@@ -1,0 +1,35 @@
+"""What a further mode must bring, and what counts as noise when it is judged."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from statorhom.extraction.modal_model import Window
+from statorhom.extraction.window_fit import WindowFit
+
+_LEAST_DISPERSION = 0.1  # the noise may be overestimated at sharp peaks, but not by more
+
+
+def price(window: Window) -> float:
+    """Twice the log likelihood that a further mode must bring: its pole, participation and shape."""
+    points, references, _ = window.values.shape
+    return (2 * points + 2 + 2 * (references - 1)) * unknown_price(window)
+
+
+def unknown_price(window: Window) -> float:
+    """Price of one real unknown: the logarithm of the data behind it, those of one point."""
+    _, references, lines = window.values.shape
+    return float(np.log(2.0 * references * lines))
+
+
+def dispersion(window: Window, fit: WindowFit) -> float:
+    """Misfit over noise: mean squared weighted residual per independent degree of freedom.
+
+    Misfit that the noise does not explain is smooth along the lines; lines that agree with their neighbours
+    in it are not independent evidence for a mode.
+    """
+    data = int(np.count_nonzero(window.weights))
+    unknowns = fit.linear.coefficients.size + 2 * len(fit.modes)
+    if fit.modes.shift is not None:
+        unknowns += len(fit.modes.shift) // 2
+    return max(_LEAST_DISPERSION, fit.chi2 / max(data - unknowns, 1)) * fit.linear.correlation
