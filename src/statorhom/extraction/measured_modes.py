@@ -1,0 +1,142 @@
+"""From the recordings of one test to its named modes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from statorhom.errors import IdentificationError, RecordingError
+from statorhom.extraction.extract import extract
+from statorhom.extraction.extraction import ExtractedMode, Extraction
+from statorhom.modes.doublets import DoubletPair, find_doublets
+from statorhom.modes.measured_name import MeasuredName, name_measured
+from statorhom.modes.measured_shape import MeasuredShape, measured_shapes
+from statorhom.modes.point_layout import PointLayout, lay_out
+from statorhom.modes.shape_features import ShapeFeatures, shape_features
+from statorhom.recordings.estimation.estimate import estimate_frf
+from statorhom.recordings.frf_set import FrfSet
+from statorhom.recordings.placement import Placement
+from statorhom.recordings.read import read_recording
+
+CONFIDENT = 0.95  # probability from which on a name counts as known
+
+
+@dataclass(frozen=True)
+class NamedMode:
+    """A measured mode and what its shape tells.
+
+    Attributes
+    ----------
+    mode : ExtractedMode
+    shape : MeasuredShape or None
+        On the grid of the outermost points; None where the points lie around no axis.
+    name : MeasuredName or None
+        None together with the shape.
+    features : ShapeFeatures or None
+        Antinode and sidebands of a mode with an order.
+    """
+
+    mode: ExtractedMode
+    shape: MeasuredShape | None = None
+    name: MeasuredName | None = None
+    features: ShapeFeatures | None = None
+
+    @property
+    def order(self) -> int | None:
+        """Circumferential order r; None where the points do not tell it beyond doubt."""
+        sure = self.name is not None and (self.name.confidence or 0.0) >= CONFIDENT
+        return self.name.name.order if sure and self.name and self.name.name else None
+
+    @property
+    def axial(self) -> int | None:
+        """Axial node planes n; None where unknown."""
+        return None if self.order is None or not self.name or not self.name.name else self.name.name.axial
+
+
+@dataclass(frozen=True)
+class MeasuredModes:
+    """The modes of one test, and what they were found from.
+
+    Attributes
+    ----------
+    frf_sets : tuple of FrfSet
+        As read, or as estimated from hits.
+    extraction : Extraction
+    modes : tuple of NamedMode
+        In ascending frequency.
+    doublets : tuple of DoubletPair
+        By number in `modes`.
+    remarks : tuple of str
+        Of reading, estimation, extraction and naming.
+    """
+
+    frf_sets: tuple[FrfSet, ...]
+    extraction: Extraction
+    modes: tuple[NamedMode, ...]
+    doublets: tuple[DoubletPair, ...]
+    remarks: tuple[str, ...]
+
+
+def measured_modes(
+    paths: Sequence[Path],
+    placement: Placement | None = None,
+    band_hz: tuple[float, float] | None = None,
+) -> MeasuredModes:
+    """Read recordings, estimate FRFs where they are hits, extract modes and name them.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+        Files of one test.
+    placement : Placement, optional
+        Where points and directions are that the files do not say.
+    band_hz : (low, high), optional
+        Frequencies to look at; all by default.
+
+    Raises
+    ------
+    StatorhomError
+        Where the files cannot be read or hold no modes; one line with file and remedy.
+    """
+    recording = read_recording(paths, placement)
+    frf_sets, said = recording.frf_sets, list(recording.remarks)
+    if not frf_sets:
+        if not recording.hits:
+            raise RecordingError(f"{paths[0]}: holds neither FRFs nor hits; export FRFs or time records")
+        estimate = estimate_frf(recording.hits)
+        frf_sets = estimate.frf_sets
+        said += [fault.statement for fault in estimate.faults]
+    extraction = extract(frf_sets, band_hz)
+    modes, remarks = _named(extraction)
+    said += [*extraction.remarks, *remarks]
+    return MeasuredModes(frf_sets, extraction, modes, _doublets(modes), tuple(dict.fromkeys(said)))
+
+
+def _named(extraction: Extraction) -> tuple[tuple[NamedMode, ...], list[str]]:
+    try:
+        layout = lay_out(extraction.points)
+    except IdentificationError as error:
+        return tuple(NamedMode(mode) for mode in extraction.modes), [f"modes have no names: {error}"]
+    named = tuple(_name(mode, layout) for mode in extraction.modes)
+    return named, [remark for one in named if one.shape is not None for remark in one.shape.remarks]
+
+
+def _name(mode: ExtractedMode, layout: PointLayout) -> NamedMode:
+    shape = measured_shapes(layout, mode.shape, mode.shape_sd)[0]
+    name = name_measured(shape)
+    has_order = name.name is not None and name.name.order is not None
+    return NamedMode(mode, shape, name, shape_features(shape) if has_order else None)
+
+
+def _doublets(modes: Sequence[NamedMode]) -> tuple[DoubletPair, ...]:
+    antinodes = [
+        None if one.order is None or one.features is None else one.features.antinode for one in modes
+    ]
+    return find_doublets(
+        [one.axial for one in modes],
+        antinodes,
+        [one.mode.frequency_hz for one in modes],
+        [one.mode.frequency_sd_hz for one in modes],
+        [one.mode.shape for one in modes],
+    )

@@ -1,0 +1,1 @@
+"""What `statorhom modes` leaves behind: table, shapes and plots of a test's recordings."""
