@@ -17,9 +17,10 @@ ALLOWED["results"] = {"errors", "study", "geometry", "mesh"}
 ALLOWED["identify"] = {*PIPELINE, "results"}
 ALLOWED["report"] = {*PIPELINE, "results"}
 ALLOWED["simulate"] = {*PIPELINE, "results", "identify"}
+ALLOWED["measure"] = {*PIPELINE, "results", "identify", "report"}
 ALLOWED["api"] = {*PIPELINE, "results", "identify", "report"}
 ALLOWED["command_line"] = {*PIPELINE, "results", "identify", "report"}
-ALLOWED["cli"] = {*PIPELINE, "results", "identify", "report", "simulate", "api", "command_line"}
+ALLOWED["cli"] = {*PIPELINE, "results", "identify", "report", "simulate", "measure", "api", "command_line"}
 ALLOWED["__init__"] = {"errors", "api"}
 
 LONGEST_FILE, LONGEST_FUNCTION = 350, 60

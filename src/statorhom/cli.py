@@ -11,7 +11,7 @@ import typer
 
 from statorhom.command_line.exit_codes import guarded
 from statorhom.command_line.progress import progress_bars
-from statorhom.command_line.tables import print_materials, print_modes
+from statorhom.command_line.tables import print_materials, print_measured, print_modes
 
 app = typer.Typer(
     name="statorhom",
@@ -64,6 +64,31 @@ def simulate(study: StudyPath, stage: Stage = None, out: Out = None, json: Json 
     else:
         print_modes(table)
         typer.echo(f"wrote {path}", err=True)
+
+
+@app.command()
+def modes(
+    recordings: Annotated[
+        list[Path], typer.Argument(metavar="RECORDING…", help="Files of one test: FRFs or hits.")
+    ],
+    study: Annotated[
+        Path | None,
+        typer.Option("--study", metavar="STUDY", help="Study with a test of these files: takes its keys."),
+    ] = None,
+    out: Out = None,
+    json: Json = False,
+) -> None:
+    """Extract the modes of a test's recordings: modal table, shapes, plots."""
+    from statorhom.measure import measure
+
+    with progress_bars(quiet=json) as announce:
+        table, paths = measure(recordings, study, out, announce)
+    if json:
+        typer.echo(table.to_json(orient="records"))
+    else:
+        print_measured(table)
+        for path in paths:
+            typer.echo(f"wrote {path}", err=True)
 
 
 @app.command()

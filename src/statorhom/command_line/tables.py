@@ -43,6 +43,20 @@ def print_modes(table: pd.DataFrame) -> None:
     Console().print(shown)
 
 
+def print_measured(table: pd.DataFrame) -> None:
+    """Extracted modes with their standard deviations."""
+    import pandas as pd
+
+    shown = Table("mode", "Hz", "± Hz", "loss %", "± %", "(r, n)", "share %", "MPC %", box=None)
+    for row in table.itertuples(index=False):
+        name = "" if pd.isna(row.order) else f"({row.order}, {'?' if pd.isna(row.axial) else row.axial})"
+        share = "" if pd.isna(row.share) else f"{100 * row.share:.1f}"
+        loss = f"{100 * row.loss_factor:.3g}", f"{100 * row.loss_factor_sd:.1g}"
+        frequency = f"{row.frequency_hz:.3f}", f"{row.frequency_sd_hz:.1g}"
+        shown.add_row(str(row.mode), *frequency, *loss, name, share, f"{100 * row.phase_collinearity:.1f}")
+    Console().print(shown)
+
+
 def _stage_line(stage: StageResult) -> str:
     line = f"[bold]{escape(stage.name)}[/] ({stage.kind}): {stage.mass_kg:g} kg"
     if stage.fit is not None:

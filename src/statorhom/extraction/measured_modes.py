@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from statorhom.errors import IdentificationError, RecordingError
 from statorhom.extraction.extract import extract
 from statorhom.extraction.extraction import ExtractedMode, Extraction
+from statorhom.extraction.mode_hints import ModeHints, mode_hints
 from statorhom.modes.doublets import DoubletPair, find_doublets
 from statorhom.modes.measured_name import MeasuredName, name_measured
 from statorhom.modes.measured_shape import MeasuredShape, measured_shapes
@@ -35,12 +36,15 @@ class NamedMode:
         None together with the shape.
     features : ShapeFeatures or None
         Antinode and sidebands of a mode with an order.
+    hints : ModeHints or None
+        Whether its FRFs look non-linear.
     """
 
     mode: ExtractedMode
     shape: MeasuredShape | None = None
     name: MeasuredName | None = None
     features: ShapeFeatures | None = None
+    hints: ModeHints | None = None
 
     @property
     def order(self) -> int | None:
@@ -109,7 +113,8 @@ def measured_modes(
         said += [fault.statement for fault in estimate.faults]
     extraction = extract(frf_sets, band_hz)
     modes, remarks = _named(extraction)
-    said += [*extraction.remarks, *remarks]
+    modes = _with_hints(modes, frf_sets[0])
+    said += [*extraction.remarks, *remarks, *_non_linear(modes)]
     return MeasuredModes(frf_sets, extraction, modes, _doublets(modes), tuple(dict.fromkeys(said)))
 
 
@@ -127,6 +132,22 @@ def _name(mode: ExtractedMode, layout: PointLayout) -> NamedMode:
     name = name_measured(shape)
     has_order = name.name is not None and name.name.order is not None
     return NamedMode(mode, shape, name, shape_features(shape) if has_order else None)
+
+
+def _with_hints(modes: Sequence[NamedMode], frfs: FrfSet) -> tuple[NamedMode, ...]:
+    poles = [(one.mode.frequency_hz, one.mode.loss_factor) for one in modes]
+    return tuple(
+        replace(one, hints=mode_hints(frfs, pole, [*poles[:i], *poles[i + 1 :]]))
+        for i, (one, pole) in enumerate(zip(modes, poles, strict=True))
+    )
+
+
+def _non_linear(modes: Sequence[NamedMode]) -> list[str]:
+    return [
+        f"the mode at {one.mode.frequency_hz:.2f} Hz looks non-linear: {one.hints.statement}"
+        for one in modes
+        if one.hints is not None and one.hints.remarkable
+    ]
 
 
 def _doublets(modes: Sequence[NamedMode]) -> tuple[DoubletPair, ...]:

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from statorhom.errors import IdentificationError
 from statorhom.extraction.measured_modes import MeasuredModes
 from statorhom.modes.nonlinearity.circle_distortion import circle_distortion
-from statorhom.modes.nonlinearity.resonance_fit import around_mode
+from statorhom.modes.nonlinearity.mode_lines import lines_around
 from statorhom.recordings.dof import Dof
 from statorhom.report.figures.frf_plot import frf_plot
 from statorhom.report.figures.nyquist_plot import nyquist_plot
@@ -64,18 +64,18 @@ def nyquist_plots(measured: MeasuredModes) -> Iterator[tuple[str, Figure]]:
         row = int(np.nanargmax(np.abs(receptance[:, np.argmin(np.abs(frfs.frequency_hz - frequency))])))
         neighbours = [pole for i, pole in enumerate(poles, start=1) if i != number]
         try:
-            near = around_mode(frfs.frequency_hz, frequency, loss, receptance[row])
+            near = lines_around(frfs.frequency_hz, receptance[row], frequency, loss)
             circle = circle_distortion(frfs.frequency_hz, receptance[row], frequency, loss)
         except IdentificationError:
             continue  # too few lines for a circle
-        note = f"{_place(frfs.responses[row])}; distance beyond noise {100 * circle.distortion:.1f} % of the radius"
-        if neighbours and _close(frequency, loss, neighbours):
-            note += ", another mode is close"
+        note = f"node {frfs.responses[row].node}: {100 * circle.distortion:.1f} % beyond noise"
+        if _close(frequency, loss, neighbours):
+            note += "; another mode is close"
         yield (
             f"circle-{number:02d}.png",
             nyquist_plot(
-                frfs.frequency_hz[near],
-                receptance[row, near],
+                near.axis_hz,
+                near.frf,
                 circle.centre,
                 circle.radius,
                 circle.drift / (loss * frequency),

@@ -85,7 +85,7 @@ def _pictures(measured: MeasuredModes) -> Iterator[tuple[str, bytes]]:
         title = mode_title(one)
         spectrum = measured_spectrum_plot(one.name.spectrum, one.shape.z_m, title, one.name.statement)
         yield f"orders-{number:02d}.png", png(spectrum, DPI)
-        yield f"shape-{number:02d}.gif", animate_shape(one.shape, title, one.name.statement)
+        yield f"shape-{number:02d}.gif", animate_shape(one.shape, title)
 
 
 def _shapes(measured: MeasuredModes) -> Recording:
