@@ -48,13 +48,20 @@ def print_measured(table: pd.DataFrame) -> None:
     import pandas as pd
 
     shown = Table("mode", "Hz", "± Hz", "loss %", "± %", "(r, n)", "share %", "MPC %", box=None)
-    for row in table.itertuples(index=False):
-        name = "" if pd.isna(row.order) else f"({row.order}, {'?' if pd.isna(row.axial) else row.axial})"
-        share = "" if pd.isna(row.share) else f"{100 * row.share:.1f}"
-        loss = f"{100 * row.loss_factor:.3g}", f"{100 * row.loss_factor_sd:.1g}"
-        frequency = f"{row.frequency_hz:.3f}", f"{row.frequency_sd_hz:.1g}"
-        shown.add_row(str(row.mode), *frequency, *loss, name, share, f"{100 * row.phase_collinearity:.1f}")
+    for row in table.to_dict("records"):
+        name = "" if pd.isna(row["order"]) else f"({row['order']}, {_or(row['axial'], '?')})"
+        share = "" if pd.isna(row["share"]) else f"{100 * row['share']:.1f}"
+        loss = f"{100 * row['loss_factor']:.3g}", f"{100 * row['loss_factor_sd']:.1g}"
+        frequency = f"{row['frequency_hz']:.3f}", f"{row['frequency_sd_hz']:.1g}"
+        collinearity = f"{100 * row['phase_collinearity']:.1f}"
+        shown.add_row(str(row["mode"]), *frequency, *loss, name, share, collinearity)
     Console().print(shown)
+
+
+def _or(value: object, unknown: str) -> str:
+    import pandas as pd
+
+    return unknown if pd.isna(value) else str(value)  # type: ignore[call-overload]
 
 
 def _stage_line(stage: StageResult) -> str:
