@@ -11,9 +11,10 @@ from statorhom.errors import InputFileError
 from statorhom.geometry.stator import StatorGeometry, stator_geometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.chain import chain
+from statorhom.identify.recorded_tests import with_recorded_tables
 from statorhom.identify.settings import Settings
 from statorhom.report import write_report
-from statorhom.results.files import read_results
+from statorhom.results.files import check_folder, read_results
 from statorhom.results.schema import Results
 from statorhom.study.study import StudyFiles, load_study
 
@@ -104,7 +105,10 @@ class Study:
         """
         folder = self.default_folder if out is None else Path(out)
         last = None if stage is None else self.stage_index(stage)
-        return chain(self.files, folder, Settings(seed=seed, jobs=jobs)).run(last, announce)
+        check_folder(folder)
+        recorded = with_recorded_tables(self.files, folder, last, announce)
+        settings = Settings(seed=seed, jobs=jobs)
+        return chain(recorded.files, folder, settings, recorded.shapes).run(last, announce)
 
     def run(
         self,

@@ -12,6 +12,7 @@ from threadpoolctl import threadpool_limits
 
 from statorhom.geometry.stator import StatorGeometry, stator_geometry
 from statorhom.identify.announce import Announce, silent
+from statorhom.identify.measured_mac import with_mac
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.priors import Carried
 from statorhom.identify.settings import Settings
@@ -21,6 +22,7 @@ from statorhom.identify.stage_setup import StageSetup, analytic_values, check_fi
 from statorhom.identify.stage_shapes import free_shapes
 from statorhom.identify.supported_results import supported_results
 from statorhom.materials.density import RegionDensity
+from statorhom.modes.measured_shape import MeasuredShape
 from statorhom.results.files import check_folder, earlier_stages, write_results
 from statorhom.results.schema import RegionResult, Results, StageResult
 from statorhom.results.shape_file import write_shape_file
@@ -56,12 +58,14 @@ class Chain:
     geometry : of its machine.
     folder : where results go.
     settings : of the run.
+    measured : shapes of the tests that have recordings, by row of their tables.
     """
 
     files: StudyFiles
     geometry: StatorGeometry
     folder: Path
     settings: Settings
+    measured: Mapping[str, tuple[MeasuredShape, ...]] = field(default_factory=dict)
 
     def run(self, last: int | None = None, announce: Announce = silent) -> Results:
         """Identify all steps up to one (default: all) and write results.json after each.
@@ -121,7 +125,8 @@ class Chain:
         progress(1)
         name = f"shapes/{setup.index + 1}-{setup.keys.name}.npz"
         write_shape_file(self.folder / name, replace(shapes, modes=(*shapes.modes, *more)))
-        return result.model_copy(update={"shapes": name, "modes": (*result.modes, *predicted)})
+        free = with_mac(result.modes, shapes, self.measured)
+        return result.model_copy(update={"shapes": name, "modes": (*free, *predicted)})
 
     def _supports(self, setup: StageSetup) -> dict[str, SupportKeys]:
         """Support of every supported test of a stage."""
@@ -175,15 +180,21 @@ class Chain:
         )
 
 
-def chain(files: StudyFiles, folder: Path, settings: Settings) -> Chain:
-    """A chain of a study's steps.
+def chain(
+    files: StudyFiles,
+    folder: Path,
+    settings: Settings,
+    measured: Mapping[str, tuple[MeasuredShape, ...]] | None = None,
+) -> Chain:
+    """A chain of a study's steps; `measured` are the shapes of tests that have recordings.
 
     Raises
     ------
     GeometryError
         If the machine is impossible.
     """
-    return Chain(files, stator_geometry(files.geometry, files.geometry_path), folder, settings)
+    geometry = stator_geometry(files.geometry, files.geometry_path)
+    return Chain(files, geometry, folder, settings, measured or {})
 
 
 def program_version() -> str:

@@ -103,17 +103,9 @@ def check_fit(files: StudyFiles, setup: StageSetup) -> None:
     Raises
     ------
     StatorhomError
-        If a test has recordings only, no mode is left to fit or the search has too few evaluations.
+        If no mode is left to fit or the search has too few evaluations.
     """
     stage = f"stages[{setup.keys.name}]"
-    for test in setup.keys.tests:
-        if test.name not in files.tables:
-            raise input_error(
-                files.path,
-                f"{stage}.tests[{test.name}]",
-                f"recordings ({', '.join(test.paths)}) cannot be fitted yet",
-                "give the test a modal_table",
-            )
     if setup.tests and not setup.fitted:
         raise input_error(
             files.path,
@@ -183,6 +175,9 @@ def _test_modes(files: StudyFiles, test: ModalTestKeys) -> TestModes:
     table = files.tables.get(test.name)
     modes = () if table is None else table.modes
     held = {str(number) for number in test.hold_out}
+    if test.modal_table is None:
+        # the shape was seen and has no name: which simulated mode it is would be a guess
+        held |= {mode.label for mode in modes if mode.order is None}
     predict = test.role == "predict" or (test.role is None and test.support != FREE)
     if test.role == "fit" and test.support != FREE:
         raise IdentificationError(

@@ -1,0 +1,148 @@
+"""Modal tables and shapes of the tests that a study gives as recordings.
+
+Extraction takes seconds to minutes, so that its results are kept beside those of the fit and used again while files
+and keys stay as they are.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from statorhom.errors import InputFileError
+from statorhom.extraction.measured_modes import MeasuredModes, measured_modes
+from statorhom.extraction.modal_table_text import modal_table, table_text
+from statorhom.identify.announce import Announce, silent
+from statorhom.modes.measured_shape import MeasuredShape
+from statorhom.recordings.placement import Placement
+from statorhom.study.atomic import write_bytes, write_text
+from statorhom.study.frozen_map import FrozenMap
+from statorhom.study.message import input_error
+from statorhom.study.modal_table import ModalTable, read_modal_table
+from statorhom.study.modal_tests import ModalTestKeys
+from statorhom.study.study import StudyFiles
+
+FORMAT = 1  # of what is kept: a change of method makes it stale
+FOLDER = "recordings"
+_DAMAGED = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, InputFileError)
+
+Shapes = tuple[MeasuredShape, ...]
+
+
+@dataclass(frozen=True)
+class RecordedStudy:
+    """A study whose recordings have become modal tables.
+
+    Attributes
+    ----------
+    files : StudyFiles
+        With the tables of all tests of the stages that were asked for.
+    shapes : mapping
+        Test → measured shapes by row of its table; empty where points lie around no axis.
+    """
+
+    files: StudyFiles
+    shapes: Mapping[str, Shapes] = field(default_factory=dict)
+
+
+def with_recorded_tables(
+    files: StudyFiles, folder: Path, last: int | None = None, announce: Announce = silent
+) -> RecordedStudy:
+    """Extract the modes of the tests that have recordings.
+
+    Parameters
+    ----------
+    files : the study.
+    folder : of the results; tables and shapes are kept in its folder `recordings`.
+    last : number of the last stage that is needed; None for all.
+    announce : told what begins.
+
+    Raises
+    ------
+    StatorhomError
+        Where recordings cannot be read or hold no modes.
+    """
+    stages = files.study.stages[: None if last is None else last + 1]
+    tests = [test for stage in stages for test in stage.tests if test.name not in files.tables]
+    if not tests:
+        return RecordedStudy(files)
+    done = announce("modal extraction", len(tests))
+    tables, shapes = dict(files.tables), {}
+    for number, test in enumerate(tests, start=1):
+        tables[test.name], shapes[test.name] = _recorded(files, test, folder / FOLDER)
+        _check_held_out(files, test, tables[test.name])
+        done(number)
+    return RecordedStudy(replace(files, tables=FrozenMap(tables)), shapes)
+
+
+def _recorded(files: StudyFiles, test: ModalTestKeys, folder: Path) -> tuple[ModalTable, Shapes]:
+    paths = [files.path.parent / name for name in test.paths]
+    table, shapes = folder / f"{test.name}.csv", folder / f"{test.name}.npz"
+    digest = _digest(test, paths)
+    try:
+        return read_modal_table(table), _read_shapes(shapes, digest)
+    except _DAMAGED:
+        pass  # not there, stale or damaged: all the same
+    with threadpool_limits(limits=1, user_api="blas"):
+        measured = measured_modes(paths, Placement.of_test(test))
+    if not measured.modes:
+        names = ", ".join(test.paths)
+        raise input_error(
+            files.path, f"tests[{test.name}]", f"{names}: no mode stands out of the noise", "repeat the test"
+        )
+    write_text(table, table_text(modal_table(measured, table), measured.remarks))
+    write_bytes(shapes, _shape_bytes(measured, digest))
+    return read_modal_table(table), _read_shapes(shapes, digest)
+
+
+def _digest(test: ModalTestKeys, paths: list[Path]) -> str:
+    total = hashlib.sha256(f"{FORMAT} {Placement.of_test(test)}".encode())
+    for path in paths:
+        with path.open("rb") as file:
+            total.update(hashlib.file_digest(file, "sha256").digest())
+    return total.hexdigest()
+
+
+def _shape_bytes(measured: MeasuredModes, digest: str) -> bytes:
+    shapes = [one.shape for one in measured.modes if one.shape is not None]
+    content: dict[str, np.ndarray] = {"digest": np.array(digest)}
+    if len(shapes) == len(measured.modes):
+        first = shapes[0]
+        content |= {"radius": np.array(first.radius_m), "z": first.z_m, "angles": first.angles_rad}
+        content["motion"] = np.stack([shape.motion for shape in shapes])
+        content["sd"] = np.stack([shape.sd for shape in shapes])
+    buffer = io.BytesIO()
+    np.savez(buffer, **content)  # type: ignore[arg-type]
+    return buffer.getvalue()
+
+
+def _read_shapes(path: Path, digest: str) -> Shapes:
+    with np.load(path, allow_pickle=False) as content:
+        if str(content["digest"]) != digest:
+            raise ValueError("of other recordings")
+        if "motion" not in content:
+            return ()
+        place = float(content["radius"]), content["z"], content["angles"]
+        return tuple(
+            MeasuredShape(*place, motion, sd)
+            for motion, sd in zip(content["motion"], content["sd"], strict=True)
+        )
+
+
+def _check_held_out(files: StudyFiles, test: ModalTestKeys, table: ModalTable) -> None:
+    labels = [mode.label for mode in table.modes]
+    for number in test.hold_out:
+        if str(number) not in labels:
+            raise input_error(
+                files.path,
+                f"tests[{test.name}].hold_out",
+                f"the recordings show no mode {number}",
+                f"use 1 … {len(labels)}, in the order of frequency",
+            )
