@@ -31,15 +31,17 @@ def with_mac(
             found.append(mode)
             continue
         pair = simulated.modes[mode.shape], shapes[int(mode.label) - 1]
-        found.append(mode.model_copy(update={"mac": _mac(simulated.planes_m, *pair)}))
+        found.append(mode.model_copy(update={"mac": _mac(simulated, *pair)}))
     return tuple(found)
 
 
-def _mac(planes_m: np.ndarray, mode: ModeShape, shape: MeasuredShape) -> float | None:
+def _mac(simulated: ShapeFile, mode: ModeShape, shape: MeasuredShape) -> float | None:
     """Part of the measured radial motion that is of the mode; a doublet's mode may be turned as it likes."""
     if mode.order is None or mode.harmonic is None:
         return None
-    along = CubicSpline(planes_m, mode.spectrum[:, mode.order].real)(shape.z_m)
+    along = CubicSpline(simulated.planes_m, mode.spectrum[:, mode.order].real)(shape.z_m)
+    # planes beside the core lie on a frame, which is another surface
+    along[(shape.z_m < 0) | (shape.z_m > simulated.mesh.length)] = np.nan
     angle = mode.order * shape.angles_rad
     waves = [np.cos(angle), np.sin(angle)] if mode.parity == "pair" else [np.cos(angle)]
     columns = np.column_stack([np.outer(along, wave).ravel() for wave in waves])

@@ -8,10 +8,13 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from statorhom.errors import IdentificationError
+from statorhom.extraction.cmif import cmif
 from statorhom.extraction.measured_modes import MeasuredModes
+from statorhom.extraction.point_grid import point_grid
 from statorhom.modes.nonlinearity.circle_distortion import circle_distortion
 from statorhom.modes.nonlinearity.mode_lines import lines_around
 from statorhom.recordings.dof import Dof
+from statorhom.report.figures.cmif_plot import cmif_plot
 from statorhom.report.figures.frf_plot import frf_plot
 from statorhom.report.figures.nyquist_plot import nyquist_plot
 from statorhom.report.figures.stabilization_plot import stabilization_plot
@@ -53,6 +56,13 @@ def stabilization(measured: MeasuredModes) -> Figure:
     return stabilization_plot(
         diagram.frequency_hz, diagram.order, diagram.stable, frfs.frequency_hz[shown], total, chosen
     )
+
+
+def indicator(measured: MeasuredModes) -> Figure:
+    """Complex mode indication function."""
+    grid = point_grid(measured.frf_sets)
+    poles = [one.mode.frequency_hz for one in measured.modes]
+    return cmif_plot(grid.omega / (2 * np.pi), cmif(grid), poles)
 
 
 def nyquist_plots(measured: MeasuredModes) -> Iterator[tuple[str, Figure]]:
