@@ -10,10 +10,11 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.extraction.modal_model import Modes, Window
-from statorhom.extraction.pole_price import dispersion, price
+from statorhom.extraction.pole_price import dispersion, misfit, price
 from statorhom.extraction.pole_search import best_candidates, trial_poles
 from statorhom.extraction.window_fit import WindowFit, fit_window
 
+FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
 _MOST_NEW = 5  # modes per window and sweep
@@ -26,28 +27,39 @@ _FLANK = 10.0  # bandwidths over which a mode's own curve may be inexact …
 _LEAST_BESIDE = 0.1  # … by this part
 
 
+def drop_doubtful(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
+    """Remove, the weakest first, poles that the window cannot show and those that only correct others."""
+    while True:
+        doubtful = [
+            m
+            for m in range(len(fit.modes))
+            if not plausible(window, fit.modes.poles[m]) or repeats(fit, neighbours, m)
+        ]
+        if not doubtful:
+            return fit
+        worth = _worth(window, fit)
+        fit = fit_window(window, fit.modes.without(min(doubtful, key=lambda m: worth[m])), neighbours)
+
+
 def prune(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
     """Remove, the weakest first, modes whose shape does not stand out of its uncertainty."""
     while len(fit.modes):
-        count = len(fit.modes)
-        variance = np.einsum("kcc->kc", fit.linear.inverse).real[:, :count]
-        square = np.abs(fit.linear.coefficients[:, :count]) ** 2
-        # a point without data in the window has neither coefficient nor variance
-        worth = (
-            2 * np.sum(square / np.where(variance > 0, variance, np.inf), axis=0) / dispersion(window, fit)
-        )
+        worth = _worth(window, fit)
         weakest = int(np.argmin(worth))
-        doubtful = [
-            m
-            for m in range(count)
-            if not plausible(window, fit.modes.poles[m]) or repeats(fit, neighbours, m)
-        ]
-        if doubtful:
-            weakest = min(doubtful, key=lambda m: worth[m])
-        elif worth[weakest] > price(window):
+        if worth[weakest] > price(window):
             break
         fit = fit_window(window, fit.modes.without(weakest), neighbours)
     return fit
+
+
+def _worth(window: Window, fit: WindowFit) -> FloatArray:
+    """Twice the log likelihood that every mode's shape brings."""
+    count = len(fit.modes)
+    variance = np.einsum("kcc->kc", fit.linear.inverse).real[:, :count]
+    square = np.abs(fit.linear.coefficients[:, :count]) ** 2
+    # a point without data in the window has neither coefficient nor variance
+    worth: FloatArray = 2 * np.sum(square / np.where(variance > 0, variance, np.inf), axis=0)
+    return worth / dispersion(window, fit)
 
 
 def grow(
@@ -74,18 +86,30 @@ def grow(
 def _larger(
     window: Window, fit: WindowFit, neighbours: Modes, stable: ComplexArray, reach: tuple[float, float]
 ) -> WindowFit | None:
-    """Fit with one mode more, from the most promising candidate that holds; None where none does."""
+    """Fit with one mode more, or two where one alone leaves too much misfit to be judged; None for none."""
+    smaller = fit
+    for added in (1, 2):
+        larger = _with_candidate(window, smaller, neighbours, stable, reach)
+        if larger is None:
+            return None
+        if 2 * (fit.chi2 - larger.chi2) / dispersion(window, larger) >= added * price(window):
+            return larger
+        smaller = larger
+    return None
+
+
+def _with_candidate(
+    window: Window, fit: WindowFit, neighbours: Modes, stable: ComplexArray, reach: tuple[float, float]
+) -> WindowFit | None:
+    """Fit with the most promising further mode that is physical; None where none is promising."""
     known = np.concatenate([fit.modes.poles, neighbours.poles])
     trials = trial_poles(window, known, reach)
     for candidate in best_candidates(window, fit, neighbours, trials, _CANDIDATES):
-        if 2 * candidate.gain / dispersion(window, fit) < _HOPELESS * price(window):
+        if 2 * candidate.gain / misfit(window, fit) < _HOPELESS * price(window):
             return None
         larger = fit_window(
             window, fit.modes.with_mode(candidate.pole, candidate.part), neighbours, _TRIAL_ITERATIONS
         )
-        gain = 2 * (fit.chi2 - larger.chi2) / dispersion(window, larger)
-        if gain < price(window):
-            return None
         beyond = not window.squared[0] < larger.modes.poles[-1].real < window.squared[-1]
         seen = beyond or _near(larger.modes.poles[-1], np.concatenate([known, stable]))
         physical = seen and all(plausible(window, pole) for pole in larger.modes.poles)

@@ -10,7 +10,7 @@ from statorhom.extraction.extraction import ExtractedMode
 from statorhom.extraction.modal_model import free_parts
 from statorhom.extraction.mode_search import FittedWindow
 from statorhom.extraction.point_grid import PointGrid
-from statorhom.extraction.pole_price import dispersion
+from statorhom.extraction.pole_price import dispersion, misfit
 from statorhom.extraction.stabilization import Stabilization
 from statorhom.recordings.dof import Dof
 
@@ -50,7 +50,7 @@ def mode_estimates(
         modes.append(
             _mode(pole, pole_sd, residue, residue_sd, fit.modes.parts[m], part_sd, drive, window_decay_per_s)
             | {
-                "misfit": float(np.sqrt(excess / fit.linear.correlation)),
+                "misfit": float(np.sqrt(misfit(fitted.window, fit))),
                 "stability": stability(stabilization, pole),
                 "point_shift": fit.modes.shift,
             }

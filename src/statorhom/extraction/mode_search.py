@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from statorhom.extraction.clusters import cluster_lines, clusters, nearest, tiles
 from statorhom.extraction.modal_model import Modes, Window, unit_part
-from statorhom.extraction.mode_count import grow, prune
+from statorhom.extraction.mode_count import drop_doubtful, grow, prune
 from statorhom.extraction.point_grid import PointGrid
 from statorhom.extraction.point_shifts import with_shifts
 from statorhom.extraction.window_fit import WindowFit, fit_window
@@ -125,9 +125,10 @@ class ModeSearch:
         """Fit one window, drop modes that are not worth their price and add those that are."""
         window, neighbours = self._window(lines), self._neighbours(own, lines)
         fit = fit_window(window, Modes(self.modes.poles[own], self.modes.parts[own]), neighbours)
-        fit = prune(window, fit, neighbours)
+        fit = drop_doubtful(window, fit, neighbours)
         if not self._exhausted(lines, fit.modes, neighbours):
             fit = grow(window, fit, neighbours, self.stable, self._reach(lines))
+            fit = prune(window, fit, neighbours)
             self.visited.append((lines, np.sort_complex(np.concatenate([fit.modes.poles, neighbours.poles]))))
         # poles that are gone are marked, so that the places of the others stay; the sweep's end removes them
         poles, parts = self.modes.poles.copy(), self.modes.parts

@@ -22,14 +22,19 @@ def unknown_price(window: Window) -> float:
     return float(np.log(2.0 * references * lines))
 
 
-def dispersion(window: Window, fit: WindowFit) -> float:
-    """Misfit over noise: mean squared weighted residual per independent degree of freedom.
-
-    Misfit that the noise does not explain is smooth along the lines; lines that agree with their neighbours
-    in it are not independent evidence for a mode.
-    """
+def misfit(window: Window, fit: WindowFit) -> float:
+    """Mean squared weighted residual per degree of freedom: 1 where the noise explains it."""
     data = int(np.count_nonzero(window.weights))
     unknowns = fit.linear.coefficients.size + 2 * len(fit.modes)
     if fit.modes.shift is not None:
         unknowns += len(fit.modes.shift) // 2
-    return max(_LEAST_DISPERSION, fit.chi2 / max(data - unknowns, 1)) * fit.linear.correlation
+    return max(_LEAST_DISPERSION, fit.chi2 / max(data - unknowns, 1))
+
+
+def dispersion(window: Window, fit: WindowFit) -> float:
+    """Misfit per independent degree of freedom: what counts as variance of the noise.
+
+    Misfit that the noise does not explain is smooth along the lines; lines that agree with their neighbours
+    in it are not independent evidence for a mode.
+    """
+    return misfit(window, fit) * fit.linear.correlation
