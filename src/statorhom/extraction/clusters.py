@@ -16,6 +16,7 @@ _LARGEST_MARGIN = (
     0.15  # of the frequency, but at least two bandwidths: far lines tell little of a damped mode
 )
 _LEAST_MARGIN = 15  # lines
+_MIXED = 4.0  # a cluster's margin goes by its narrowest pole times this, at most
 _LARGEST_CLUSTER = 8
 _TILE = 400  # lines
 NEIGHBOURS = 3
@@ -50,6 +51,9 @@ def cluster_lines(poles: ComplexArray, omega: FloatArray) -> slice:
     frequency = np.sqrt(poles.real)
     width = frequency * poles.imag / poles.real
     reach = np.minimum(_MARGIN * width, np.maximum(2 * width, _LARGEST_MARGIN * frequency))
+    # broad poles among narrow ones do not need their whole margin: long windows with fine lines are slow
+    narrowest, spacing = float(width.min()), float(omega[-1] - omega[0]) / (len(omega) - 1)
+    reach = np.minimum(reach, np.maximum(_MARGIN * _MIXED * narrowest, _MIXED * _LEAST_MARGIN * spacing))
     low = int(np.searchsorted(omega, np.min(frequency - reach)))
     high = int(np.searchsorted(omega, np.max(frequency + reach)))
     first = int(np.searchsorted(omega, frequency.min())) - _LEAST_MARGIN

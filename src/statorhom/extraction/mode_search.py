@@ -22,7 +22,7 @@ from statorhom.extraction.window_fit import WindowFit, fit_window
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
-_SWEEPS = 4
+_SWEEPS = 3
 _BINS_PER_BANDWIDTH = 8
 _ENOUGH_BINS = 250
 _REACH = 0.3  # of a window's width
