@@ -13,7 +13,8 @@ from statorhom.identify.polish import Optimum, polish
 from statorhom.identify.priors import Carried, stage_space
 from statorhom.identify.refinement import Band, MeshSeries
 from statorhom.identify.settings import Settings
-from statorhom.identify.stage_fit import TRAINING, StageFit, fit_stage, reduce_stage, search_space
+from statorhom.identify.stage_basis import TRAINING, reduce_stage
+from statorhom.identify.stage_fit import StageFit, fit_stage, search_space
 from statorhom.identify.stage_problem import StageProblem
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.identify.training import training_materials

@@ -50,6 +50,7 @@ def modes_below(
     most: int | None = None,
     back_end: Factorize = factorize,
     tolerance: float = 0.0,
+    beyond: int = 0,
 ) -> tuple[np.ndarray, np.ndarray]:
     """All eigenpairs of K x = λ M x up to a frequency, rigid-body modes included.
 
@@ -61,6 +62,7 @@ def modes_below(
     most : stop at this many modes although the band may hold more; None for all.
     back_end : factorizes the shifted matrix.
     tolerance : relative, of the eigenvalues above the shift; 0 for rounding alone.
+    beyond : how many of the next modes above the band to return too.
 
     Returns
     -------
@@ -79,9 +81,9 @@ def modes_below(
         count = expected if most is None else min(expected, most)
         while True:
             values, vectors = _lowest(K, M, sigma, solve, count, tolerance)
-            if values[-1] > top or len(values) == K.shape[0] or count == most:
-                keep = values <= top
-                return values[keep], vectors[:, keep]
+            inside = int((values <= top).sum())
+            if len(values) > inside + max(beyond - 1, 0) or len(values) == K.shape[0] or count == most:
+                return values[: inside + beyond], vectors[:, : inside + beyond]
             count = 2 * count if most is None else min(2 * count, most)
 
 

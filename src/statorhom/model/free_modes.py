@@ -1,8 +1,8 @@
-"""All modes of the free stator in a band, harmonic by harmonic, on the full or on a reduced model."""
+"""All modes of the free stator in a band, harmonic by harmonic, on the full model."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,8 +12,7 @@ from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.eigen import modes_below
 from statorhom.model.harmonic import Harmonic, all_orders, harmonic_spaces
-from statorhom.model.radial_profile import RadialProfile, node_planes, radial_profile
-from statorhom.model.reduced import ReducedHarmonic, coefficients
+from statorhom.model.radial_profile import node_planes, radial_profile
 from statorhom.model.stator_mode import StatorMode, name_modes
 
 
@@ -124,89 +123,3 @@ def strain_energy_shares(model: AffineModel, materials: Materials, shape: np.nda
         energy[region] = float(np.real(np.vdot(shape, K @ shape)))
     total = sum(energy.values())
     return {region: value / total for region, value in energy.items()}
-
-
-@dataclass(frozen=True)
-class ReducedStator:
-    """Reduced harmonics with what names their modes: an evaluation of all modes in milliseconds.
-
-    Parameters
-    ----------
-    problems : reduced harmonics.
-    profiles : per problem (p, k) radial order amplitudes of the basis.
-    volumes : region → volume (m³).
-    highest_hz : upper end of the band.
-    """
-
-    problems: tuple[ReducedHarmonic, ...]
-    profiles: tuple[np.ndarray, ...]
-    volumes: dict[str, float]
-    highest_hz: float
-
-    @property
-    def error(self) -> float:
-        """Largest relative frequency error that the bases met at their last snapshots."""
-        return max((p.error for p in self.problems), default=0.0)
-
-    def solve(self, materials: Materials) -> ReducedModes:
-        """Named modes in the band, sorted by frequency."""
-        mass = sum(materials[region].density * volume for region, volume in self.volumes.items())
-        modes: list[StatorMode] = []
-        weights = coefficients(materials)
-        vectors, eigenvalues = [], []
-        for number, (problem, profile) in enumerate(zip(self.problems, self.profiles, strict=True)):
-            values, q = problem.modes(weights, self.highest_hz)
-            amplitudes = profile @ (q / np.sqrt(problem.harmonic.copies))
-            modes += name_modes(
-                values,
-                amplitudes,
-                node_planes(amplitudes),
-                order=problem.harmonic.order,
-                multiplicity=problem.harmonic.multiplicity,
-                mass=mass,
-                problem=number,
-            )
-            vectors.append(q)
-            eigenvalues.append(values)
-        modes.sort(key=lambda mode: mode.frequency_hz)
-        return ReducedModes(self, tuple(modes), tuple(eigenvalues), tuple(vectors))
-
-
-@dataclass(frozen=True)
-class ReducedModes:
-    """Modes of one evaluation of a reduced stator, with what their derivatives need.
-
-    Parameters
-    ----------
-    stator : the reduced stator.
-    modes : sorted by frequency.
-    eigenvalues, vectors : per problem (k,) and (size of the basis, k), mass-normalised.
-    """
-
-    stator: ReducedStator
-    modes: tuple[StatorMode, ...]
-    eigenvalues: tuple[np.ndarray, ...]
-    vectors: tuple[np.ndarray, ...]
-
-    def log_frequency_gradient(self, mode: StatorMode) -> dict[str, tuple[np.ndarray, float]]:
-        """Region → derivative of ln f with respect to its nine Hooke entries and its density.
-
-        ∂λ/∂p = qᵀ(∂K/∂p - λ ∂M/∂p)q. The two modes of a doublet share one eigenvalue and lie in one problem as
-        a single vector: nothing is ambiguous.
-        """
-        problem = self.stator.problems[mode.problem]
-        q = self.vectors[mode.problem][:, mode.column]
-        value = self.eigenvalues[mode.problem][mode.column]
-        return {
-            region: (0.5 / value * (terms @ q @ q), -0.5 * float(q @ problem.mass[region] @ q))
-            for region, terms in problem.stiffness.items()
-        }
-
-
-def reduced_stator(
-    model: AffineModel, problems: Sequence[ReducedHarmonic], highest_hz: float
-) -> ReducedStator:
-    """Attach the radial profiles to reduced harmonics."""
-    profile: RadialProfile = radial_profile(model.mesh)
-    profiles = tuple(profile.orders(p.harmonic, p.harmonic.expand(p.basis)) for p in problems)
-    return ReducedStator(tuple(problems), profiles, dict(model.volumes), highest_hz)

@@ -1,0 +1,184 @@
+"""The reduced basis of one harmonic in one cell of materials: greedy snapshots at the largest certified error."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from statorhom.model.eigen import SHIFT, factorize, modes_below
+from statorhom.model.eigenvalue_bounds import eigenvalue_drops, frequency_errors
+from statorhom.model.harmonic_terms import HarmonicTerms
+from statorhom.model.material_cells import stiffness_ratio
+from statorhom.model.material_span import MaterialPoint
+from statorhom.model.residual_norm import ResidualNorm, residual_norm
+from statorhom.model.ritz import ritz_pairs
+
+BEYOND = 1  # modes above the band in every snapshot: the bounds need to know what comes next
+SPARE = 4  # Ritz values above the band that may serve as barriers
+DROP = 0.2  # of the tolerance: the energy below which a new direction may be left out
+RESOLVED = 1e-5  # of the tolerance: the part of the energy that residuals need not resolve; gaps magnify it
+
+
+@dataclass(frozen=True)
+class LocalBasis:
+    """One harmonic in the reduced basis of a cell.
+
+    Parameters
+    ----------
+    basis : (m, k) coordinates of the basis in the harmonic's space, of unit mass at the reference's densities.
+    stiffness : (s, k, k) per unit weight of the material span's directions.
+    mass : (regions, k, k) per unit density.
+    residual : norm of residuals; its terms are the directions, then the regions.
+    error : largest certified relative frequency error at the cell's training materials.
+    """
+
+    basis: np.ndarray
+    stiffness: np.ndarray
+    mass: np.ndarray
+    residual: ResidualNorm
+    error: float
+
+
+def norm_shift(highest_hz: float) -> float:
+    """σ of the norm in which the residuals of a band are measured (rad²/s²)."""
+    return SHIFT * float((2 * np.pi * highest_hz) ** 2)
+
+
+def local_basis(
+    terms: HarmonicTerms,
+    training: Sequence[MaterialPoint],
+    highest_hz: float,
+    tolerance: float,
+    most: int,
+) -> LocalBasis:
+    """Build the basis of a cell.
+
+    Parameters
+    ----------
+    terms : of the harmonic.
+    training : materials of the cell; the norm of the residuals is that of the first.
+    highest_hz : upper end of the band in which modes are to be exact.
+    tolerance : certified relative frequency error to stay below.
+    most : largest number of snapshots.
+    """
+    builder = _Builder(terms, training, highest_hz, tolerance)
+    builder.add_snapshot(0)
+    errors = np.full(len(training), np.inf)
+    for _ in range(most - 1):
+        worst = builder.worst(errors)
+        if errors[worst] <= tolerance or not builder.add_snapshot(worst):
+            break
+    return builder.finished(max(builder.certified_error(i) for i in range(len(training))))
+
+
+class _Builder:
+    """The growing basis and its images."""
+
+    def __init__(
+        self,
+        terms: HarmonicTerms,
+        training: Sequence[MaterialPoint],
+        highest_hz: float,
+        tolerance: float,
+    ) -> None:
+        self.terms, self.training = terms, training
+        self.highest_hz, self.tolerance = highest_hz, tolerance
+        self.top, self.shift = (2 * np.pi * highest_hz) ** 2, norm_shift(highest_hz)
+        K, self.metric = terms.matrices(training[0])
+        self.operator = K + self.shift * self.metric
+        self.solve = factorize(self.operator)
+        self.weights = [np.r_[terms.span.weights(p), p.density] for p in training]
+        self.directions = terms.span.size
+        size, count = self.operator.shape[0], len(self.weights[0])
+        self.basis = np.empty((size, 0))
+        self.images = np.empty((count, size, 0))
+        self.seen = np.empty((count, size, 0))  # the images through the inverse of the reference's operator
+        self.expected = 8
+
+    def add_snapshot(self, number: int) -> bool:
+        """Take in a material's modes; False where they bring nothing new."""
+        K, M = self.terms.matrices(self.training[number])
+        _, vectors = modes_below(K, M, self.highest_hz, self.expected, beyond=BEYOND)
+        self.expected = vectors.shape[1] + 2
+        new = self._new_directions(vectors)
+        if new.shape[1] == 0:
+            return False
+        images = self.terms.images(new)
+        count, size, columns = images.shape
+        seen = self.solve(np.ascontiguousarray(images.transpose(1, 0, 2).reshape(size, -1)))
+        self.basis = np.hstack([self.basis, new])
+        self.images = np.concatenate([self.images, images], axis=2)
+        self.seen = np.concatenate(
+            [self.seen, seen.reshape(size, count, columns).transpose(1, 0, 2)], axis=2
+        )
+        self.projected = _symmetric(self.basis.T @ self.images)
+        return True
+
+    def _new_directions(self, vectors: np.ndarray) -> np.ndarray:
+        """What the vectors add to the basis, of unit mass; what has hardly any energy is left out."""
+        new = vectors / np.sqrt(np.einsum("ij,ij->j", vectors, self.operator @ vectors))
+        for _ in range(2):  # twice is enough (Kahan)
+            new = new - self.basis @ (self.basis.T @ (self.metric @ new))
+        values, rotation = np.linalg.eigh(_symmetric(new.T @ (self.operator @ new)))
+        new = new @ rotation[:, values > DROP * self.tolerance]
+        values, rotation = np.linalg.eigh(_symmetric(new.T @ (self.metric @ new)))
+        return np.asarray(new @ (rotation / np.sqrt(values)))
+
+    def worst(self, errors: np.ndarray) -> int:
+        """Training material of the largest certified error; `errors` holds those of the last round.
+
+        Errors mostly fall as the basis grows, so that the earlier largest ones are looked at first; that one above
+        the tolerance stays the largest must be seen, but nothing is done until all are known to be below.
+        """
+        for number in np.argsort(-errors, kind="stable"):
+            errors[number] = self.certified_error(int(number))
+            following = np.delete(errors, number)
+            if errors[number] > max(self.tolerance, following.max(initial=0.0)):
+                return int(number)
+        return int(errors.argmax())
+
+    def certified_error(self, number: int) -> float:
+        """Certified relative frequency error at a training material."""
+        w, s = self.weights[number], self.directions
+        K, M = (np.tensordot(w[a], self.projected[a], axes=1) for a in (slice(s), slice(s, None)))
+        values, vectors = ritz_pairs(K, M)
+        used = int((values <= self.top).sum()) + SPARE
+        values, vectors = values[:used], vectors[:, :used]
+        residual, dual = (self._combined(images, w, values, vectors) for images in (self.images, self.seen))
+        squared = np.einsum("ij,ij->j", residual, dual) / stiffness_ratio(
+            self.training[number], self.training[0]
+        )
+        drops = eigenvalue_drops(values, np.maximum(squared, 0.0), self.shift)
+        errors = frequency_errors(values, drops, self.shift)
+        return float(errors[values <= self.top].max(initial=0.0))
+
+    def _combined(
+        self, images: np.ndarray, w: np.ndarray, values: np.ndarray, vectors: np.ndarray
+    ) -> np.ndarray:
+        """Residuals of Ritz pairs, from the images or from what the norm makes of them."""
+        s = self.directions
+        elastic = np.tensordot(w[:s], images[:s] @ vectors, axes=1)
+        return np.asarray(elastic - np.tensordot(w[s:], images[s:] @ vectors, axes=1) * values)
+
+    def finished(self, error: float) -> LocalBasis:
+        """The basis so far, turned into the reference's own Ritz vectors: orthogonal in mass and in energy."""
+        s, w = self.directions, self.weights[0]
+        values, turn = np.linalg.eigh(np.tensordot(w[:s], self.projected[:s], axes=1))
+        projected = _symmetric(turn.T @ self.projected @ turn)
+        count, size, k = self.images.shape
+        flat, seen = ((a @ turn).transpose(1, 0, 2).reshape(size, -1) for a in (self.images, self.seen))
+        scales = np.abs(self.weights).max(axis=0)
+        scales[s:] *= self.top
+        residual = residual_norm(
+            _symmetric(flat.T @ seen).reshape(count, k, count, k),
+            np.where(scales > 0.0, scales, 1.0),
+            np.maximum(values, 0.0) + self.shift,
+            RESOLVED * self.tolerance,
+        )
+        return LocalBasis(self.basis @ turn, projected[:s], projected[s:], residual, error)
+
+
+def _symmetric(matrices: np.ndarray) -> np.ndarray:
+    return (matrices + np.swapaxes(matrices, -1, -2)) / 2
