@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from statorhom.identify.announce import Progress
 from statorhom.identify.optimizers.workers import Tick, Workers
 from statorhom.model.affine import AffineModel, Materials
@@ -16,6 +18,7 @@ from statorhom.model.reduced_stator import ReducedStator, reduced_stator
 # it remains there
 BASIS_TOLERANCE = 3e-4
 BAND = 1.1  # the basis is exact up to here, as a part of the highest measured frequency
+STEP = 1.05  # bands are rounded up to powers of it
 LOOK = 1.5  # modes are computed and paired up to here
 TRAINING = 512  # materials among which the bases pick their snapshots, a power of two
 
@@ -25,6 +28,7 @@ BasisTask = tuple[AffineModel, Harmonic, MaterialBox, float, BasisStore | None]
 def reduce_stage(
     model: AffineModel,
     training: Sequence[Materials],
+    typical: Materials,
     spaces: Sequence[Harmonic],
     highest_hz: float,
     workers: Workers,
@@ -35,15 +39,24 @@ def reduce_stage(
 
     Parameters
     ----------
-    model, training, spaces : the mesh's model, materials that cover the box, harmonic problems.
+    model : of the mesh.
+    training : materials that cover the box.
+    typical : evaluations are fastest at its densities.
+    spaces : harmonic problems.
     highest_hz : highest measured frequency.
     workers, progress : processes, and what counts the problems that are done.
     store : where bases are kept between runs; None to build them anew.
     """
     box = material_box(training, model.mesh.regions)
-    tasks = [(model, space, box, BAND * highest_hz, store) for space in spaces]
+    band = _rounded_up(BAND * highest_hz)
+    tasks = [(model, space, box, band, store) for space in spaces]
     problems = workers.map(_reduce, tasks, progress=progress)
-    return reduced_stator(model, box, problems, LOOK * highest_hz)
+    return reduced_stator(model, box, problems, LOOK * highest_hz, typical)
+
+
+def _rounded_up(hz: float) -> float:
+    """To a power of `STEP`: machines of one kind share a band."""
+    return float(STEP ** np.ceil(np.log(hz) / np.log(STEP)))
 
 
 def _reduce(task: BasisTask, tick: Tick) -> ReducedHarmonic:

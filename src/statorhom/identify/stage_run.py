@@ -20,6 +20,7 @@ from statorhom.identify.stage_setup import StageSetup
 from statorhom.identify.training import training_materials
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.basis_store import BasisStore
 from statorhom.model.free_modes import FreeModes
 from statorhom.model.harmonic import problems_of
 
@@ -61,6 +62,7 @@ def run_stage(
     settings: Settings,
     workers: Workers,
     announce: Announce,
+    store: BasisStore | None = None,
 ) -> StageRun:
     """Identify the constants of a step.
 
@@ -71,6 +73,7 @@ def run_stage(
     analytic : homogenized start values.
     settings, workers : of the run.
     announce : told what begins.
+    store : where reduced bases are kept between runs.
 
     Raises
     ------
@@ -89,8 +92,10 @@ def run_stage(
     top = highest_hz(setup.fitted)
     names = mode_names(model, typical, setup.fitted)
     problems = problems_of(model.mesh, names)
-    training = training_materials(searched, setup.materials, TRAINING)
-    reduced = reduce_stage(model, training, problems, top, workers, announce("reduced bases", len(problems)))
+    training = training_materials(space, setup.materials, TRAINING)
+    reduced = reduce_stage(
+        model, training, typical, problems, top, workers, announce("reduced bases", len(problems)), store
+    )
     problem = StageProblem(space, setup.materials, reduced, setup.fitted, ModelError())
     fitted_orders = {r for r, _ in names}
     orders = sorted(fitted_orders | {r for r, _ in mode_names(model, typical, setup.free_modes, BAND_MARGIN)})

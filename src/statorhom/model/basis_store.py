@@ -23,7 +23,16 @@ from statorhom.model.residual_norm import ResidualNorm
 from statorhom.study.atomic import write_bytes
 
 FORMAT = 1  # raised when the same inputs shall give another basis
-_DAMAGED = (OSError, ValueError, KeyError, EOFError, TypeError, zipfile.BadZipFile, zlib.error)
+_DAMAGED = (
+    OSError,
+    ValueError,
+    KeyError,
+    EOFError,
+    TypeError,
+    AttributeError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
 _ARRAYS = ("basis", "stiffness", "mass", "factor", "scales", "numbers")
 
 
@@ -66,7 +75,7 @@ class BasisStore:
         ResultsError
             If the folder cannot be written.
         """
-        content = {}
+        content: dict[str, np.ndarray] = {}
         for i, cell in enumerate(reduced.cells):
             parts = (
                 cell.basis,
@@ -86,7 +95,7 @@ class BasisStore:
     ) -> ReducedHarmonic | None:
         """The reduced harmonic of a key; None where there is none that is sound."""
         try:
-            with np.load(self.path(key), allow_pickle=False) as file:
+            with self.path(key).open("rb") as stream, np.load(stream, allow_pickle=False) as file:
                 cells = tuple(
                     _cell([file[f"{name}_{i}"] for name in _ARRAYS], harmonic, box)
                     for i in range(len(box.training))
@@ -118,4 +127,6 @@ def _cell(arrays: list[np.ndarray], harmonic: Harmonic, box: MaterialBox) -> Loc
         raise ValueError("not a reduced basis")
     for array in arrays:
         array.setflags(write=False)
-    return LocalBasis(basis, stiffness, mass, ResidualNorm(factor, scales, float(numbers[0])), float(numbers[1]))
+    return LocalBasis(
+        basis, stiffness, mass, ResidualNorm(factor, scales, float(numbers[0])), float(numbers[1])
+    )

@@ -92,10 +92,11 @@ class FreeProblem:
                     values,
                     amplitudes,
                     node_planes(amplitudes),
-                    order=order,
-                    multiplicity=harmonic.multiplicity,
+                    order=[order] * len(values),
+                    multiplicity=[harmonic.multiplicity] * len(values),
                     mass=self.mass,
-                    problem=len(harmonics),
+                    problem=[len(harmonics)] * len(values),
+                    column=range(len(values)),
                 )
                 harmonics.append(harmonic)
                 shapes.append(shape)

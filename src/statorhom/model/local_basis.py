@@ -110,9 +110,7 @@ class _Builder:
         seen = self.solve(np.ascontiguousarray(images.transpose(1, 0, 2).reshape(size, -1)))
         self.basis = np.hstack([self.basis, new])
         self.images = np.concatenate([self.images, images], axis=2)
-        self.seen = np.concatenate(
-            [self.seen, seen.reshape(size, count, columns).transpose(1, 0, 2)], axis=2
-        )
+        self.seen = np.concatenate([self.seen, seen.reshape(size, count, columns).transpose(1, 0, 2)], axis=2)
         self.projected = _symmetric(self.basis.T @ self.images)
         return True
 

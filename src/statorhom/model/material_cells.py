@@ -50,7 +50,11 @@ class MaterialCells:
 
     def locate(self, point: MaterialPoint) -> int:
         """Number of the cell."""
-        return int(np.abs(self.centres - features(point)).max(axis=1).argmin())
+        return int(self.distances(point).argmin())
+
+    def distances(self, point: MaterialPoint) -> np.ndarray:
+        """Distances to all centres (cells,)."""
+        return np.asarray(np.abs(self.centres - features(point)).max(axis=1))
 
 
 def material_cells(

@@ -23,6 +23,9 @@ from statorhom.model.material_span import MaterialPoint, MaterialSpan, material_
 
 RADIUS = 1.0  # of the cells: energies within one differ by about this much in their logarithm
 MOST_CELLS = 24
+# A cell is trained beyond its border, on materials that lie not much farther from its centre than from their own, and
+# on a few of the nearest in any case: where materials are rare, a cell's own ones do not show what lies between.
+OVERLAP, LEAST = 1.3, 12
 
 
 @dataclass(frozen=True)
@@ -33,7 +36,7 @@ class MaterialBox:
     ----------
     span : directions in which they move.
     cells : where a material belongs.
-    training : per cell its materials, the reference first.
+    training : per cell materials in and around it, the reference first.
     """
 
     span: MaterialSpan
@@ -47,11 +50,14 @@ def material_box(
     """Divide materials that cover a box; the first is its centre."""
     points = [material_point(materials, regions) for materials in training]
     cells, centres = material_cells(points, radius, most)
-    parts: list[list[MaterialPoint]] = [[points[i]] for i in centres]
-    for i, point in enumerate(points):
-        if i not in centres:
-            parts[cells.locate(point)].append(point)
-    return MaterialBox(material_span(points, regions), cells, tuple(tuple(part) for part in parts))
+    distance = np.array([cells.distances(point) for point in points])
+    near = distance <= OVERLAP * distance.min(axis=1, keepdims=True)
+    parts = []
+    for cell, centre in enumerate(centres):
+        order = np.argsort(distance[:, cell], kind="stable")
+        chosen = [i for rank, i in enumerate(order) if i != centre and (near[i, cell] or rank < LEAST)]
+        parts.append(tuple(points[i] for i in (centre, *chosen)))
+    return MaterialBox(material_span(points, regions), cells, tuple(parts))
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -58,9 +58,7 @@ class ReducedBatch:
     outside: np.ndarray
     profiles: np.ndarray
 
-    def pairs(
-        self, weights: np.ndarray, densities: np.ndarray, top: float, *, unit_mass: bool
-    ) -> BatchPairs:
+    def pairs(self, weights: np.ndarray, densities: np.ndarray, top: float, *, unit_mass: bool) -> BatchPairs:
         """Ritz pairs up to λ = `top` and a few more; `unit_mass`: the densities are the reference's."""
         shape = self.padding.shape
         K = (weights @ self.stiffness).reshape(shape) + top * FAR * self.padding
@@ -78,7 +76,9 @@ class ReducedBatch:
         s, values = len(weights), pairs.values
         elastic = (weights.astype(np.float32) @ self.elastic).reshape(b, -1, k)
         inertial = (densities.astype(np.float32) @ self.inertial).reshape(b, -1, k)
-        rest = (weights**2 @ self.outside[:s])[:, None] + (densities**2 @ self.outside[s:])[:, None] * values**2
+        rest = (weights**2 @ self.outside[:s])[:, None] + (densities**2 @ self.outside[s:])[
+            :, None
+        ] * values**2
         squared = squared_norms(elastic, inertial, rest * (values + shift) / ratio, values, pairs.vectors)
         # padding is no mode
         real = np.where(values < pairs.top * FAR**0.5, values, np.inf)
@@ -86,7 +86,7 @@ class ReducedBatch:
 
 
 def reduced_batches(
-    cells: Sequence[LocalBasis], profiles: Sequence[np.ndarray]
+    cells: Sequence[LocalBasis], profiles: Sequence[np.ndarray], densities: np.ndarray
 ) -> tuple[ReducedBatch, ...]:
     """Group problems by size.
 
@@ -94,7 +94,10 @@ def reduced_batches(
     ----------
     cells : per problem its basis in one and the same cell.
     profiles : per problem (planes, k) radial order amplitudes of that basis.
+    densities : (regions,) at which the batches' vectors have unit mass.
     """
+    turned = [_of_unit_mass(c, p, densities) for c, p in zip(cells, profiles, strict=True)]
+    cells, profiles = [c for c, _ in turned], [p for _, p in turned]
     order = sorted(range(len(cells)), key=lambda i: -cells[i].basis.shape[1])
     groups: list[list[int]] = []
     for i in order:
@@ -104,6 +107,18 @@ def reduced_batches(
         else:
             groups.append([i])
     return tuple(_batch(group, cells, profiles) for group in groups)
+
+
+def _of_unit_mass(
+    cell: LocalBasis, profile: np.ndarray, densities: np.ndarray
+) -> tuple[LocalBasis, np.ndarray]:
+    """The same basis with vectors that have unit mass at given densities."""
+    turn = np.linalg.inv(np.linalg.cholesky(np.tensordot(densities, cell.mass, axes=1))).T
+    residual = replace(cell.residual, factor=(cell.residual.factor @ turn).astype(np.float32))
+    made = LocalBasis(
+        cell.basis @ turn, turn.T @ cell.stiffness @ turn, turn.T @ cell.mass @ turn, residual, cell.error
+    )
+    return made, profile @ turn
 
 
 def _batch(

@@ -17,7 +17,7 @@ from statorhom.model.reduced import MaterialBox, ReducedHarmonic
 from statorhom.model.reduced_batch import BatchPairs, ReducedBatch, reduced_batches
 from statorhom.model.stator_mode import StatorMode, name_modes
 
-UNIT_DENSITY = 1e-12  # relative: densities that count as those of the reference
+UNIT_DENSITY = 1e-12  # relative: densities that count as the typical ones
 
 
 @dataclass(frozen=True)
@@ -38,6 +38,7 @@ class ReducedStator:
     box : materials that it was made for.
     kinds : per problem.
     batches : per cell the problems side by side.
+    densities : at which the bases have unit mass.
     volumes : region → volume (m³).
     highest_hz : upper end of the band that is evaluated.
     certified_hz : upper end of the band that the bases were made for.
@@ -47,6 +48,7 @@ class ReducedStator:
     box: MaterialBox
     kinds: tuple[ProblemKind, ...]
     batches: tuple[tuple[ReducedBatch, ...], ...]
+    densities: np.ndarray
     volumes: Mapping[str, float]
     highest_hz: float
     certified_hz: float
@@ -63,8 +65,7 @@ class ReducedStator:
         point = material_point(materials, self.box.span.regions)
         cell = self.box.cells.locate(point)
         weights = self.box.span.weights(point)
-        reference = self.box.training[cell][0]
-        unit = bool(np.all(np.abs(point.density / reference.density - 1.0) < UNIT_DENSITY))
+        unit = bool(np.all(np.abs(point.density / self.densities - 1.0) < UNIT_DENSITY))
         top = (2 * np.pi * self.highest_hz) ** 2
         pairs = tuple(
             batch.pairs(weights, point.density, top, unit_mass=unit) for batch in self.batches[cell]
@@ -100,23 +101,32 @@ class ReducedModes:
     @cached_property
     def modes(self) -> tuple[StatorMode, ...]:
         """Named modes sorted by frequency, rigid bodies left out."""
-        found: list[StatorMode] = []
-        for batch, pairs in zip(self.batches, self.pairs, strict=True):
-            used = int(pairs.counts.max())
-            amplitudes = batch.profiles @ pairs.vectors[:, :, :used]
-            for i, number in enumerate(batch.problems):
-                kind, count = self.stator.kinds[number], pairs.counts[i]
-                own = amplitudes[i, :, :count] / np.sqrt(kind.copies)
-                found += name_modes(
-                    pairs.values[i, :count],
-                    own,
-                    node_planes(own),
-                    order=kind.order,
-                    multiplicity=kind.multiplicity,
-                    mass=self.mass,
-                    problem=int(number),
-                )
+        columns = [self._in_band(batch, pairs) for batch, pairs in zip(self.batches, self.pairs, strict=True)]
+        values, amplitudes, problems, places = (
+            np.concatenate([part[i] for part in columns], axis=-1) for i in range(4)
+        )
+        kinds = [self.stator.kinds[p] for p in problems]
+        found = name_modes(
+            values,
+            amplitudes / np.sqrt([k.copies for k in kinds]),
+            node_planes(amplitudes),
+            order=[k.order for k in kinds],
+            multiplicity=[k.multiplicity for k in kinds],
+            mass=self.mass,
+            problem=problems.tolist(),
+            column=places.tolist(),
+        )
         return tuple(sorted(found, key=lambda mode: mode.frequency_hz))
+
+    @staticmethod
+    def _in_band(
+        batch: ReducedBatch, pairs: BatchPairs
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Eigenvalues (j,), amplitudes (planes, j), problems (j,) and columns (j,) of a batch's modes."""
+        used = int(pairs.counts.max())
+        row, column = np.nonzero(np.arange(used) < pairs.counts[:, None])
+        amplitudes = (batch.profiles @ pairs.vectors[:, :, :used])[row, :, column].T
+        return pairs.values[row, column], amplitudes, batch.problems[row], column
 
     @cached_property
     def certificates(self) -> tuple[np.ndarray, ...]:
@@ -173,9 +183,14 @@ class ReducedModes:
 
 
 def reduced_stator(
-    model: AffineModel, box: MaterialBox, problems: Sequence[ReducedHarmonic], highest_hz: float
+    model: AffineModel,
+    box: MaterialBox,
+    problems: Sequence[ReducedHarmonic],
+    highest_hz: float,
+    typical: Materials,
 ) -> ReducedStator:
-    """Arrange reduced harmonics for evaluation up to a frequency."""
+    """Arrange reduced harmonics for evaluation up to a frequency, fastest at the densities of `typical`."""
+    densities = material_point(typical, box.span.regions).density
     profile: RadialProfile = radial_profile(model.mesh)
     batches = []
     for cell in range(len(box.training)):
@@ -184,10 +199,10 @@ def reduced_stator(
             profile.orders(p.harmonic, p.harmonic.expand(b.basis))
             for p, b in zip(problems, bases, strict=True)
         ]
-        batches.append(reduced_batches(bases, profiles))
-    kinds = tuple(
-        ProblemKind(p.harmonic.order, p.harmonic.multiplicity, p.harmonic.copies) for p in problems
-    )
+        batches.append(reduced_batches(bases, profiles, densities))
+    kinds = tuple(ProblemKind(p.harmonic.order, p.harmonic.multiplicity, p.harmonic.copies) for p in problems)
     certified = min((p.highest_hz for p in problems), default=highest_hz)
     error = max((p.error for p in problems), default=0.0)
-    return ReducedStator(box, kinds, tuple(batches), dict(model.volumes), highest_hz, certified, error)
+    return ReducedStator(
+        box, kinds, tuple(batches), densities, dict(model.volumes), highest_hz, certified, error
+    )
