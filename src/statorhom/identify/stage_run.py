@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from statorhom.errors import IdentificationError
 from statorhom.identify.announce import Announce
 from statorhom.identify.bands import highest_hz, mode_names
+from statorhom.identify.basis_check import BasisCheck, check_basis
 from statorhom.identify.model_error import ModelError, model_error
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.polish import Optimum, polish
@@ -42,7 +43,8 @@ class StageRun:
     solution : free modes of the fitting mesh at the optimum.
     error : mesh factors of the full model's modes.
     plain : the optimum that the fitting mesh alone would give, without mesh factors.
-    basis_error : estimated relative frequency error of the reduced basis.
+    basis : the reduced model verified at the optimum.
+    basis_error : largest certified relative frequency error of the reduced model over the prior.
     """
 
     setup: StageSetup
@@ -52,6 +54,7 @@ class StageRun:
     solution: FreeModes
     error: ModelError
     plain: Optimum
+    basis: BasisCheck
     basis_error: float
 
 
@@ -135,5 +138,6 @@ def _finished(
         solution=solution,
         error=model_error(fit.convergence, same),
         plain=plain,
+        basis=check_basis(fit.problem.solve(best), solution),
         basis_error=basis_error,
     )

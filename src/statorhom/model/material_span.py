@@ -1,7 +1,7 @@
 """The materials that a reduced basis knows: a few combinations of Hooke entries per region.
 
 A transversely isotropic region moves in five directions of the nine-dimensional space of Hooke entries, an isotropic
-one in two. The directions come from the training materials; operators are projected once per direction, not per entry.
+one in two: operators are projected once per direction, not per entry.
 """
 
 from __future__ import annotations
@@ -10,13 +10,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import qr
 
 from statorhom.errors import SolverError
 from statorhom.model.affine import Materials, hooke_coefficients
 from statorhom.model.assembly import HOOKE_ENTRIES
 
-RANK = 1e-9  # relative singular value below which a direction is rounding
 OUTSIDE = 1e-6  # relative part of a Hooke's matrix that may lie outside the span
 
 
@@ -98,17 +96,44 @@ class MaterialSpan:
 
 
 def material_span(points: Sequence[MaterialPoint], regions: Sequence[str]) -> MaterialSpan:
-    """Span of training materials, region by region: regions may then also move apart."""
-    chosen, directions = {}, {}
-    for i, region in enumerate(regions):
-        hooke = np.array([p.hooke[i] for p in points])
-        # of equal size, lest soft materials drown as rounding of stiff ones
-        rows = hooke / np.linalg.norm(hooke, axis=1)[:, None]
-        _, values, right = np.linalg.svd(rows, full_matrices=False)
-        kept = right[values > RANK * values[0]]
-        # the reduced echelon form keeps stiff and soft entries apart
-        _, _, pivots = qr(kept, mode="economic", pivoting=True)
-        chosen[region] = np.sort(pivots[: len(kept)])
-        directions[region] = np.linalg.solve(kept[:, chosen[region]], kept).T
-        directions[region][np.abs(directions[region]) < RANK] = 0.0
-    return MaterialSpan(tuple(regions), chosen, directions)
+    """The narrowest symmetry of every region that holds all its materials."""
+    chosen = {region: _narrowest(np.array([p.hooke[i] for p in points])) for i, region in enumerate(regions)}
+    return MaterialSpan(
+        tuple(regions), {r: c[0] for r, c in chosen.items()}, {r: c[1] for r, c in chosen.items()}
+    )
+
+
+def _narrowest(hooke: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    size = np.abs(hooke).max(axis=1, keepdims=True)
+    return next(
+        (entries, directions)
+        for entries, directions in SYMMETRIES
+        if np.all(np.abs(hooke[:, entries] @ directions.T - hooke) <= OUTSIDE * size)
+    )
+
+
+def _symmetry(*columns: Mapping[str, float]) -> tuple[np.ndarray, np.ndarray]:
+    """Determining entries, the first of every column, and all entries per unit of each."""
+    directions = np.zeros((len(HOOKE_ENTRIES), len(columns)))
+    for j, column in enumerate(columns):
+        for name, value in column.items():
+            directions[HOOKE_ENTRIES.index((int(name[0]) - 1, int(name[1]) - 1)), j] = value
+    entries = [int(np.flatnonzero(column == 1.0)[0]) for column in directions.T]
+    return np.array(entries), directions
+
+
+# isotropic, transversely isotropic about axis 3, orthotropic: each holds those before it
+SYMMETRIES = (
+    _symmetry(
+        {"11": 1, "22": 1, "33": 1, "44": 0.5, "55": 0.5, "66": 0.5},
+        {"12": 1, "13": 1, "23": 1, "44": -0.5, "55": -0.5, "66": -0.5},
+    ),
+    _symmetry(
+        {"11": 1, "22": 1, "66": 0.5},
+        {"33": 1},
+        {"12": 1, "66": -0.5},
+        {"13": 1, "23": 1},
+        {"44": 1, "55": 1},
+    ),
+    _symmetry(*({f"{i + 1}{j + 1}": 1.0} for i, j in HOOKE_ENTRIES)),
+)
