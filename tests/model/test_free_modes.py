@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from small_stators import MATERIALS, STACK, WINDING, stator_mesh
+from threadpoolctl import threadpool_info
 
 from statorhom.model.affine import Material, assemble
 from statorhom.model.free_modes import solve_free, strain_energy_shares, total_mass
@@ -39,6 +40,20 @@ def test_some_orders_alone(model, free):
     only = solve_free(model, MATERIALS, TOP_HZ, (2,))
     expected = [m.frequency_hz for m in free.modes if free.harmonics[m.problem].order == 2]
     np.testing.assert_allclose([m.frequency_hz for m in only.modes], expected, rtol=1e-10)
+
+
+def test_threads_change_nothing(model, free):
+    several = solve_free(model, MATERIALS, TOP_HZ, jobs=3)
+    assert [m.problem for m in several.modes] == [m.problem for m in free.modes]
+    assert [m.frequency_hz for m in several.modes] == [m.frequency_hz for m in free.modes]
+    for a, b in zip(several.shapes, free.shapes, strict=True):
+        np.testing.assert_array_equal(a, b)
+
+
+def test_blas_threads_are_what_they_were_afterwards(model):
+    before = [library["num_threads"] for library in threadpool_info()]
+    solve_free(model, MATERIALS, 2000.0, (2, 3), jobs=2)
+    assert [library["num_threads"] for library in threadpool_info()] == before
 
 
 def test_shapes_have_unit_modal_mass_in_the_whole_stator(model, free):

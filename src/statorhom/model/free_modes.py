@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
+from threadpoolctl import threadpool_limits
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.eigen import modes_below
 from statorhom.model.harmonic import Harmonic, all_orders, harmonic_spaces
-from statorhom.model.radial_profile import node_planes, radial_profile
+from statorhom.model.radial_profile import RadialProfile, node_planes, radial_profile
 from statorhom.model.stator_mode import StatorMode, name_modes
 
 
@@ -44,6 +46,7 @@ def solve_free(
     highest_hz: float,
     orders: Iterable[int] | None = None,
     most: int | None = None,
+    jobs: int = 1,
 ) -> FreeModes:
     """Solve the full model.
 
@@ -54,8 +57,9 @@ def solve_free(
     highest_hz : upper end of the band.
     orders : harmonics to solve (default: all, 0 … N/2).
     most : lowest modes of each harmonic problem that are enough; None for all of the band.
+    jobs : threads; harmonics are independent, and factorizing one leaves the interpreter to the others.
     """
-    return problem_at(model, materials).solve(highest_hz, orders, most)
+    return problem_at(model, materials).solve(highest_hz, orders, most, jobs)
 
 
 @dataclass(frozen=True)
@@ -75,34 +79,63 @@ class FreeProblem:
     mass: float
 
     def solve(
-        self, highest_hz: float, orders: Iterable[int] | None = None, most: int | None = None
+        self,
+        highest_hz: float,
+        orders: Iterable[int] | None = None,
+        most: int | None = None,
+        jobs: int = 1,
     ) -> FreeModes:
         """Modes of the band; see `solve_free`."""
         profile = radial_profile(self.mesh)
-        harmonics: list[Harmonic] = []
-        modes: list[StatorMode] = []
-        shapes, profiles = [], []
-        for order in all_orders(self.mesh.slots) if orders is None else orders:
-            for harmonic in harmonic_spaces(self.mesh, order):
-                K, M = harmonic.project(self.K), harmonic.project(self.M)
-                values, vectors = modes_below(K, M, highest_hz, most=most)
-                shape = harmonic.expand(vectors) / np.sqrt(harmonic.copies)
-                amplitudes = profile.orders(harmonic, shape)
-                modes += name_modes(
-                    values,
-                    amplitudes,
-                    node_planes(amplitudes),
-                    order=[order] * len(values),
-                    multiplicity=[harmonic.multiplicity] * len(values),
-                    mass=self.mass,
-                    problem=[len(harmonics)] * len(values),
-                    column=range(len(values)),
-                )
-                harmonics.append(harmonic)
-                shapes.append(shape)
-                profiles.append(amplitudes)
+        wanted = all_orders(self.mesh.slots) if orders is None else orders
+
+        def solved(order: int) -> list[_Solved]:
+            spaces = harmonic_spaces(self.mesh, order)
+            return [self._solve_harmonic(space, profile, highest_hz, most) for space in spaces]
+
+        # the limit holds for all threads: entered by each, one would lift another's
+        with threadpool_limits(limits=1, user_api="blas"), ThreadPoolExecutor(max(1, jobs)) as pool:
+            found = [part for parts in pool.map(solved, wanted) for part in parts]
+        modes = [mode for i, part in enumerate(found) for mode in self._named(part, i)]
         modes.sort(key=lambda mode: mode.frequency_hz)
-        return FreeModes(tuple(modes), tuple(harmonics), tuple(shapes), tuple(profiles))
+        return FreeModes(
+            tuple(modes),
+            tuple(part.harmonic for part in found),
+            tuple(part.shape for part in found),
+            tuple(part.amplitudes for part in found),
+        )
+
+    def _solve_harmonic(
+        self, harmonic: Harmonic, profile: RadialProfile, highest_hz: float, most: int | None
+    ) -> _Solved:
+        values, vectors = modes_below(
+            harmonic.project(self.K), harmonic.project(self.M), highest_hz, most=most
+        )
+        shape = harmonic.expand(vectors) / np.sqrt(harmonic.copies)
+        return _Solved(harmonic, values, shape, profile.orders(harmonic, shape))
+
+    def _named(self, part: _Solved, number: int) -> list[StatorMode]:
+        count = len(part.values)
+        return name_modes(
+            part.values,
+            part.amplitudes,
+            node_planes(part.amplitudes),
+            order=[part.harmonic.order] * count,
+            multiplicity=[part.harmonic.multiplicity] * count,
+            mass=self.mass,
+            problem=[number] * count,
+            column=range(count),
+        )
+
+
+@dataclass(frozen=True)
+class _Solved:
+    """One harmonic problem: λ (k,), shapes (3 n, k) of unit modal mass, their amplitudes (planes, k)."""
+
+    harmonic: Harmonic
+    values: np.ndarray
+    shape: np.ndarray
+    amplitudes: np.ndarray
 
 
 def problem_at(model: AffineModel, materials: Materials) -> FreeProblem:
