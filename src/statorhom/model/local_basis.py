@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import eigh
 
 from statorhom.model.eigen import SHIFT, factorize, modes_below
 from statorhom.model.eigenvalue_bounds import eigenvalue_drops, frequency_errors
@@ -18,6 +19,7 @@ from statorhom.model.ritz import ritz_pairs
 BEYOND = 1  # modes above the band in every snapshot: the bounds need to know what comes next
 SPARE = 4  # Ritz values above the band that may serve as barriers
 DROP = 0.2  # of the tolerance: the energy below which a new direction may be left out
+BUILT = 0.6  # of the tolerance: what the greedy basis meets before it is compressed to the tolerance
 RESOLVED = 1e-5  # of the tolerance: the part of the energy that residuals need not resolve; gaps magnify it
 
 
@@ -68,9 +70,10 @@ def local_basis(
     errors = np.full(len(training), np.inf)
     for _ in range(most - 1):
         worst = builder.worst(errors)
-        if errors[worst] <= tolerance or not builder.add_snapshot(worst):
+        if errors[worst] <= BUILT * tolerance or not builder.add_snapshot(worst):
             break
-    return builder.finished(max(builder.certified_error(i) for i in range(len(training))))
+    builder.compress()
+    return builder.finished(builder.largest_error())
 
 
 class _Builder:
@@ -133,15 +136,14 @@ class _Builder:
         for number in np.argsort(-errors, kind="stable"):
             errors[number] = self.certified_error(int(number))
             following = np.delete(errors, number)
-            if errors[number] > max(self.tolerance, following.max(initial=0.0)):
+            if errors[number] > max(BUILT * self.tolerance, following.max(initial=0.0)):
                 return int(number)
         return int(errors.argmax())
 
     def certified_error(self, number: int) -> float:
         """Certified relative frequency error at a training material."""
         w, s = self.weights[number], self.directions
-        K, M = (np.tensordot(w[a], self.projected[a], axes=1) for a in (slice(s), slice(s, None)))
-        values, vectors = ritz_pairs(K, M)
+        values, vectors = ritz_pairs(self._reduced(w, slice(s)), self._reduced(w, slice(s, None)))
         used = int((values <= self.top).sum()) + SPARE
         values, vectors = values[:used], vectors[:, :used]
         residual, dual = (self._combined(images, w, values, vectors) for images in (self.images, self.seen))
@@ -160,10 +162,55 @@ class _Builder:
         elastic = np.tensordot(w[:s], images[:s] @ vectors, axes=1)
         return np.asarray(elastic - np.tensordot(w[s:], images[s:] @ vectors, axes=1) * values)
 
+    def largest_error(self) -> float:
+        """Largest certified error at the training materials."""
+        return max(self.certified_error(i) for i in range(len(self.training)))
+
+    def compress(self) -> None:
+        """Keep of the basis what the modes of all training materials need most, while they stay certified.
+
+        The directions are ordered by their share in the modes' energy (proper orthogonal decomposition), and as
+        many are kept as a bisection finds necessary.
+        """
+        if self.largest_error() > self.tolerance:
+            return
+        turn = self._by_energy()
+        whole = self.basis, self.images, self.seen
+        enough, few = turn.shape[1], 0
+        while enough - few > 1:
+            middle = (enough + few) // 2
+            self._turn(whole, turn[:, :middle])
+            if self.largest_error() <= self.tolerance:
+                enough = middle
+            else:
+                few = middle
+        self._turn(whole, turn[:, :enough])
+
+    def _by_energy(self) -> np.ndarray:
+        """Basis of the reduced space (k, k), orthonormal in the reference's energy, the most needed first."""
+        s = self.directions
+        found = []
+        for w in self.weights:
+            values, vectors = ritz_pairs(self._reduced(w, slice(s)), self._reduced(w, slice(s, None)))
+            used = int((values <= self.top).sum()) + BEYOND
+            found.append(vectors[:, :used] / np.sqrt(np.maximum(values[:used], 0.0) + self.shift))
+        energy = self._reduced(self.weights[0], slice(s)) + self.shift * self._reduced(
+            self.weights[0], slice(s, None)
+        )
+        root = np.linalg.cholesky(energy).T
+        return np.asarray(np.linalg.solve(root, np.linalg.svd(root @ np.hstack(found))[0]))
+
+    def _turn(self, whole: tuple[np.ndarray, np.ndarray, np.ndarray], turn: np.ndarray) -> None:
+        self.basis, self.images, self.seen = (part @ turn for part in whole)
+        self.projected = _symmetric(self.basis.T @ self.images)
+
+    def _reduced(self, w: np.ndarray, terms: slice) -> np.ndarray:
+        return np.asarray(np.tensordot(w[terms], self.projected[terms], axes=1))
+
     def finished(self, error: float) -> LocalBasis:
         """The basis so far, turned into the reference's own Ritz vectors: orthogonal in mass and in energy."""
         s, w = self.directions, self.weights[0]
-        values, turn = np.linalg.eigh(np.tensordot(w[:s], self.projected[:s], axes=1))
+        values, turn = eigh(self._reduced(w, slice(s)), self._reduced(w, slice(s, None)))
         projected = _symmetric(turn.T @ self.projected @ turn)
         count, size, k = self.images.shape
         flat, seen = ((a @ turn).transpose(1, 0, 2).reshape(size, -1) for a in (self.images, self.seen))
