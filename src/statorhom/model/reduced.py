@@ -15,9 +15,10 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.basis_greedy import local_basis
 from statorhom.model.harmonic import Harmonic
 from statorhom.model.harmonic_terms import harmonic_terms
-from statorhom.model.local_basis import LocalBasis, local_basis
+from statorhom.model.local_basis import LocalBasis
 from statorhom.model.material_cells import MaterialCells, material_cells
 from statorhom.model.material_span import MaterialPoint, MaterialSpan, material_point, material_span
 
