@@ -23,7 +23,8 @@ from calculix import INSTALL, ROOT, ccx_version
 from study_time import CELLS, MODES, timed_calculix
 
 from statorhom import Study
-from statorhom.identify.optimizers.workers import Progress, Workers
+from statorhom.identify.announce import Progress
+from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.priors import Carried
 from statorhom.identify.settings import Settings
 from statorhom.identify.stage_run import StageRun, run_stage
