@@ -59,13 +59,18 @@ def test_a_close_pair_costs_nothing():
 
 
 def test_nothing_is_known_of_the_last_value_and_of_padding():
-    values = np.array([[1.0, 2.0, 3.0], [1.0, 2.0, np.inf]])
+    values = np.array([[1.0, 2.0, 3.0], [1.0, 2.0, np.inf]]) * 1e6
     drops = eigenvalue_drops(values, np.full((2, 3), 1e-6), SHIFT)
     assert np.isfinite(drops[0]).tolist() == [True, True, False]
     assert np.isfinite(drops[1]).tolist() == [True, False, False]
-    errors = frequency_errors(values, drops, SHIFT)
-    assert errors[0, 0] == 0.5 * drops[0, 0] / (1.0 - drops[0, 0])
-    assert errors[1, 2] == np.inf
+
+
+def test_errors_of_frequencies():
+    values, drops = np.array([1e6, 1e6, 1e6, 1e-3]), np.array([2e4, 2e6, np.inf, 1e-3])
+    errors = frequency_errors(values, drops)
+    # f̃/f ≤ √(1/0.98)
+    assert np.sqrt(1 / 0.98) - 1 < errors[0] < 0.0103
+    assert errors[1:].tolist() == [np.inf, np.inf, 0.0]
 
 
 def test_without_residual_there_is_no_error():

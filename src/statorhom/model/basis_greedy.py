@@ -115,8 +115,8 @@ class _Builder:
         """Largest relative frequency error of Ritz values."""
         if len(found) < len(values):
             return float("inf")
-        drops = found[: len(values)] - values
-        return float(np.max(drops / (2 * np.maximum(values, self.shift)), initial=0.0))
+        drops = np.maximum(found[: len(values)] - values, 0.0)
+        return float(frequency_errors(found[: len(values)], drops).max(initial=0.0))
 
     def _pairs(self, number: int) -> tuple[np.ndarray, np.ndarray]:
         w, s = self.weights[number], self.directions
@@ -156,7 +156,7 @@ class _Builder:
             self.training[number], self.training[0]
         )
         drops = eigenvalue_drops(values, np.maximum(squared, 0.0), self.shift)
-        errors = frequency_errors(values, drops, self.shift)
+        errors = frequency_errors(values, drops)
         return float(errors[values <= self.top].max(initial=0.0))
 
     def _combined(

@@ -8,9 +8,9 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.linalg import eigh
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
-from threadpoolctl import threadpool_limits
 
 from statorhom.errors import SolverError
+from statorhom.model.blas_threads import one_blas_thread
 
 # shift below zero, as a part of the band's highest eigenvalue: rigid bodies keep the matrix definite
 SHIFT = 0.05
@@ -76,7 +76,7 @@ def modes_below(
     """
     top = (2 * np.pi * highest_hz) ** 2
     sigma = -SHIFT * top
-    with threadpool_limits(limits=1, user_api="blas"):
+    with one_blas_thread():
         solve = back_end(sp.csr_array(K - sigma * M))
         count = expected if most is None else min(expected, most)
         while True:
@@ -92,7 +92,7 @@ def lowest_modes(
 ) -> tuple[np.ndarray, np.ndarray]:
     """The `count` lowest eigenpairs; `scale_hz` is a typical frequency of theirs."""
     sigma = -SHIFT * (2 * np.pi * scale_hz) ** 2
-    with threadpool_limits(limits=1, user_api="blas"):
+    with one_blas_thread():
         return _lowest(K, M, sigma, factorize(sp.csr_array(K - sigma * M)), count)
 
 

@@ -17,6 +17,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from statorhom.model.stator_mode import RIGID_HZ
+
+RIGID = (2 * np.pi * RIGID_HZ) ** 2
+
 
 def eigenvalue_drops(values: np.ndarray, squared: np.ndarray, shift: float) -> np.ndarray:
     """Bound of λ̃ - λ for Ritz values λ̃.
@@ -54,8 +58,8 @@ def _whole(usable: np.ndarray, below: np.ndarray) -> np.ndarray:
     return np.asarray(usable & ~spoilt)
 
 
-def frequency_errors(values: np.ndarray, drops: np.ndarray, shift: float) -> np.ndarray:
-    """Relative errors of frequencies; a rigid body's eigenvalue is all rounding, hence the shift."""
-    with np.errstate(invalid="ignore"):
-        errors = 0.5 * drops / np.maximum(values - drops, shift)
-    return np.asarray(np.where(np.isfinite(drops), errors, np.inf))
+def frequency_errors(values: np.ndarray, drops: np.ndarray) -> np.ndarray:
+    """Bounds of the relative errors of frequencies, f̃/f - 1; none for rigid bodies, whose frequencies are rounding."""
+    left = np.subtract(values, drops, out=np.zeros_like(values), where=drops < values)
+    errors = np.divide(0.5 * drops, left, out=np.full_like(left, np.inf), where=left > 0.0)
+    return np.where(values < RIGID, 0.0, errors)

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from threadpoolctl import threadpool_limits
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.eigen import modes_below
 from statorhom.model.harmonic import Harmonic, all_orders, harmonic_spaces
 from statorhom.model.radial_profile import RadialProfile, node_planes, radial_profile
@@ -94,7 +94,7 @@ class FreeProblem:
             return [self._solve_harmonic(space, profile, highest_hz, most) for space in spaces]
 
         # the limit holds for all threads: entered by each, one would lift another's
-        with threadpool_limits(limits=1, user_api="blas"), ThreadPoolExecutor(max(1, jobs)) as pool:
+        with one_blas_thread(), ThreadPoolExecutor(max(1, jobs)) as pool:
             found = [part for parts in pool.map(solved, wanted) for part in parts]
         modes = [mode for i, part in enumerate(found) for mode in self._named(part, i)]
         modes.sort(key=lambda mode: mode.frequency_hz)

@@ -12,10 +12,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.basis_greedy import local_basis
+from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.harmonic import Harmonic
 from statorhom.model.harmonic_terms import harmonic_terms
 from statorhom.model.local_basis import LocalBasis
@@ -101,7 +101,7 @@ def reduce_harmonic(
     tolerance : certified relative frequency error to stay below at all training materials.
     most : largest number of snapshots of a cell.
     """
-    with threadpool_limits(limits=1, user_api="blas"):
+    with one_blas_thread():
         terms = harmonic_terms(model, harmonic, box.span)
         cells = tuple(local_basis(terms, part, highest_hz, tolerance, most) for part in box.training)
     return ReducedHarmonic(harmonic, tuple(_frozen(cell) for cell in cells), highest_hz)

@@ -12,7 +12,7 @@ from statorhom.model.local_basis import SPARE, LocalBasis
 from statorhom.model.residual_norm import squared_norms
 from statorhom.model.ritz import ritz_pairs
 
-WASTE = 1.25  # a batch pads its bases to the largest of them, by this factor at most
+WASTE = 1.15  # a batch pads its bases to the largest of them, by this factor at most
 FAR = 1e8  # of the band's highest eigenvalue: where padding puts its own ones
 
 
@@ -82,7 +82,7 @@ class ReducedBatch:
         squared = squared_norms(elastic, inertial, rest * (values + shift) / ratio, values, pairs.vectors)
         # padding is no mode
         real = np.where(values < pairs.top * FAR**0.5, values, np.inf)
-        return frequency_errors(real, eigenvalue_drops(real, squared / ratio, shift), shift)
+        return frequency_errors(real, eigenvalue_drops(real, squared / ratio, shift))
 
 
 def reduced_batches(

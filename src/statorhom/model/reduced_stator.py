@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.local_basis import norm_shift
 from statorhom.model.material_cells import stiffness_ratio
 from statorhom.model.material_span import MaterialPoint, material_point
@@ -67,9 +68,10 @@ class ReducedStator:
         weights = self.box.span.weights(point)
         unit = bool(np.all(np.abs(point.density / self.densities - 1.0) < UNIT_DENSITY))
         top = (2 * np.pi * self.highest_hz) ** 2
-        pairs = tuple(
-            batch.pairs(weights, point.density, top, unit_mass=unit) for batch in self.batches[cell]
-        )
+        with one_blas_thread():
+            pairs = tuple(
+                batch.pairs(weights, point.density, top, unit_mass=unit) for batch in self.batches[cell]
+            )
         mass = sum(materials[region].density * volume for region, volume in self.volumes.items())
         return ReducedModes(self, point, cell, weights, mass, pairs)
 
@@ -134,10 +136,11 @@ class ReducedModes:
         reference = self.stator.box.training[self.cell][0]
         ratio = stiffness_ratio(self.point, reference)
         shift = norm_shift(self.stator.certified_hz)
-        return tuple(
-            batch.certificate(pairs, self.weights, self.point.density, ratio, shift)
-            for batch, pairs in zip(self.batches, self.pairs, strict=True)
-        )
+        with one_blas_thread():
+            return tuple(
+                batch.certificate(pairs, self.weights, self.point.density, ratio, shift)
+                for batch, pairs in zip(self.batches, self.pairs, strict=True)
+            )
 
     def certified_error(self, mode: StatorMode) -> float:
         """By how much at most a mode's frequency lies above the full model's, relative."""
