@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -127,7 +128,7 @@ def _simulate(
     assert setup.step is not None
     series = MeshSeries(setup.step, Settings().density, Settings().refinements[:PREDICTED_MESHES])
     top = MARGIN * highest_hz(setup.free_modes) if setup.free_modes else DEFAULT_BAND_HZ
-    solution = solve_free(series.coarsest, materials, top)
+    solution = solve_free(series.coarsest, materials, top, jobs=os.cpu_count() or 1)
     _write_shapes(setup, series.coarsest, solution, folder)
     error = _mesh_error(series, materials, top, solution)
     free = sorted(corrected(solution.modes, error), key=lambda mode: mode.frequency_hz)

@@ -13,9 +13,10 @@ from statorhom.identify.training import training_materials
 from statorhom.materials.density import RegionDensity
 from statorhom.mesh import MeshDensity, mesh_step, uniform
 from statorhom.model.affine import Material, assemble
-from statorhom.model.free_modes import reduced_stator, solve_free
+from statorhom.model.free_modes import solve_free
 from statorhom.model.harmonic import problems_of
-from statorhom.model.reduced import reduce_harmonic
+from statorhom.model.reduced import material_box, reduce_harmonic
+from statorhom.model.reduced_stator import reduced_stator
 from statorhom.study.modal_table import MeasuredMode
 from statorhom.study.stages import StageKeys
 
@@ -64,8 +65,9 @@ def space(**identify):
 def reduced():
     """Reduced stator of the ring's orders 2 and 3."""
     training = training_materials(space(), LAMINATION, 32)
-    problems = [reduce_harmonic(ring(), h, training, TOP_HZ) for h in problems_of(ring().mesh, set(MODES))]
-    return reduced_stator(ring(), problems, 1.3 * TOP_HZ)
+    box = material_box(training, ring().mesh.regions)
+    problems = [reduce_harmonic(ring(), h, box, TOP_HZ) for h in problems_of(ring().mesh, set(MODES))]
+    return reduced_stator(ring(), box, problems, 1.3 * TOP_HZ, training[0])
 
 
 @cache

@@ -8,9 +8,9 @@ from example_stators import stator
 from statorhom.identify.sensitivity import mode_name, sensitivity, unreached_statement
 from statorhom.mesh import MeshDensity, mesh_step, uniform
 from statorhom.model.affine import assemble
-from statorhom.model.free_modes import reduced_stator
 from statorhom.model.harmonic import problems_of
-from statorhom.model.reduced import reduce_harmonic
+from statorhom.model.reduced import material_box, reduce_harmonic
+from statorhom.model.reduced_stator import reduced_stator
 
 PAPER = stage.TRUTH | {
     "lamination.E_p_pa": 182e9,
@@ -33,8 +33,9 @@ def paper_machine(names, top_hz):
     cells = dict(uniform(1).cells) | {"slot": 2, "radial": 3, "core": 3, "yoke": 2}
     model = assemble(mesh_step(stator().step(("stack",)), MeshDensity(cells)))
     materials = stage.LAMINATION.of(PAPER)
-    problems = [reduce_harmonic(model, h, [materials], top_hz) for h in problems_of(model.mesh, names)]
-    return reduced_stator(model, problems, top_hz).solve(materials)
+    box = material_box([materials], model.mesh.regions)
+    problems = [reduce_harmonic(model, h, box, top_hz) for h in problems_of(model.mesh, names)]
+    return reduced_stator(model, box, problems, top_hz, materials).solve(materials)
 
 
 @pytest.fixture(scope="module")

@@ -10,10 +10,10 @@ from statorhom.errors import IdentificationError
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.parameters import Parameter, ParameterSpace, Tie
 from statorhom.identify.prior_block import PriorBlock
+from statorhom.identify.stage_basis import reduce_stage
 from statorhom.identify.stage_fit import (
     effective_constants,
     fit_stage,
-    reduce_stage,
     reduced_frequencies,
     search_space,
     unexplained,
@@ -168,9 +168,11 @@ def test_reduced_bases_of_a_stage_are_those_of_its_harmonics():
     spaces = problems_of(stage.ring().mesh, {(2, 0)})
     progress = []
     with Workers() as workers:
-        found = reduce_stage(stage.ring(), [stage.steel()], spaces, 4000.0, workers, progress.append)
+        found = reduce_stage(
+            stage.ring(), [stage.steel()], stage.steel(), spaces, 4000.0, workers, progress.append
+        )
     assert progress == [1]
-    assert [p.harmonic.order for p in found.problems] == [2]
+    assert [kind.order for kind in found.kinds] == [2]
     assert found.highest_hz > 4000.0
     modes = mode_keys(found.solve(stage.steel()).modes)
     full = mode_keys(solve_free(stage.ring(), stage.steel(), 4000.0, (2,)).modes)

@@ -1,13 +1,12 @@
-"""All modes of a free stator, full and reduced."""
+"""All modes of a free stator, on the full model."""
 
 import numpy as np
 import pytest
 from small_stators import MATERIALS, STACK, WINDING, stator_mesh
+from threadpoolctl import threadpool_info
 
 from statorhom.model.affine import Material, assemble
-from statorhom.model.free_modes import reduced_stator, solve_free, strain_energy_shares, total_mass
-from statorhom.model.harmonic import harmonic_spaces
-from statorhom.model.reduced import coefficients, reduce_harmonic
+from statorhom.model.free_modes import solve_free, strain_energy_shares, total_mass
 
 TOP_HZ = 6000.0
 
@@ -20,12 +19,6 @@ def model():
 @pytest.fixture(scope="module")
 def free(model):
     return solve_free(model, MATERIALS, TOP_HZ)
-
-
-@pytest.fixture(scope="module")
-def reduced(model):
-    spaces = [space for order in (0, 2, 3) for space in harmonic_spaces(model.mesh, order)]
-    return reduced_stator(model, [reduce_harmonic(model, s, [MATERIALS], TOP_HZ) for s in spaces], TOP_HZ)
 
 
 def test_modes_are_sorted_and_rigid_bodies_left_out(free):
@@ -47,6 +40,20 @@ def test_some_orders_alone(model, free):
     only = solve_free(model, MATERIALS, TOP_HZ, (2,))
     expected = [m.frequency_hz for m in free.modes if free.harmonics[m.problem].order == 2]
     np.testing.assert_allclose([m.frequency_hz for m in only.modes], expected, rtol=1e-10)
+
+
+def test_threads_change_nothing(model, free):
+    several = solve_free(model, MATERIALS, TOP_HZ, jobs=3)
+    assert [m.problem for m in several.modes] == [m.problem for m in free.modes]
+    assert [m.frequency_hz for m in several.modes] == [m.frequency_hz for m in free.modes]
+    for a, b in zip(several.shapes, free.shapes, strict=True):
+        np.testing.assert_array_equal(a, b)
+
+
+def test_blas_threads_are_what_they_were_afterwards(model):
+    before = [library["num_threads"] for library in threadpool_info()]
+    solve_free(model, MATERIALS, 2000.0, (2, 3), jobs=2)
+    assert [library["num_threads"] for library in threadpool_info()] == before
 
 
 def test_shapes_have_unit_modal_mass_in_the_whole_stator(model, free):
@@ -82,48 +89,3 @@ def test_mass_is_that_of_the_volumes(model):
         model.volumes["lamination"] * STACK.density
         + (model.volumes["winding"] + model.volumes["overhang"]) * WINDING.density
     )
-
-
-def test_at_its_only_material_the_reduced_stator_is_the_full_one(free, reduced):
-    expected = [m for m in free.modes if free.harmonics[m.problem].order in (0, 2, 3)]
-    found = reduced.solve(MATERIALS).modes
-    np.testing.assert_allclose([m.frequency_hz for m in found], [m.frequency_hz for m in expected], rtol=1e-8)
-    assert [(m.order, m.axial, m.kind) for m in found] == [(m.order, m.axial, m.kind) for m in expected]
-    np.testing.assert_allclose([m.visibility for m in found], [m.visibility for m in expected], atol=1e-6)
-    assert reduced.error == 0.0
-
-
-def test_gradients_are_those_of_the_reduced_frequencies(reduced):
-    solution = reduced.solve(MATERIALS)
-    for mode in [m for m in solution.modes if m.order is not None][:4]:
-        gradient = solution.log_frequency_gradient(mode)
-        for region in ("lamination", "winding"):
-            hooke, density = gradient[region]
-            # all Hooke entries together: the region's stiffness
-            scaled = hooke @ _entries(MATERIALS[region])
-            slope = _difference(reduced, mode, region, stiffness=True)
-            assert scaled == pytest.approx(slope, abs=1e-6 + 1e-4 * abs(slope))
-            slope = _difference(reduced, mode, region, stiffness=False)
-            assert density * MATERIALS[region].density == pytest.approx(slope, abs=1e-6 + 1e-4 * abs(slope))
-
-
-def _entries(material):
-    matrix = material.hooke.matrix
-    pairs = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2), (3, 3), (4, 4), (5, 5))
-    return np.array([matrix[i, j] for i, j in pairs])
-
-
-def _difference(reduced, mode, region, *, stiffness, step=1e-4):
-    """∂ ln f / ∂ ln p of a mode by central differences."""
-    found = []
-    for factor in (1 - step, 1 + step):
-        m = MATERIALS[region]
-        scaled = (
-            Material(type(m.hooke)(m.hooke.matrix * factor), m.density)
-            if stiffness
-            else Material(m.hooke, m.density * factor)
-        )
-        problem = reduced.problems[mode.problem]
-        values, _ = problem.modes(coefficients({**MATERIALS, region: scaled}), TOP_HZ * 1.01)
-        found.append(0.5 * np.log(values[mode.column]))
-    return (found[1] - found[0]) / (np.log(1 + step) - np.log(1 - step))

@@ -1,123 +1,51 @@
-"""Reduced bases against the full model."""
+"""Bases per cell of a box of materials."""
 
 import numpy as np
 import pytest
-from small_stators import MATERIALS, STACK, stator_mesh
+import wound_box as stage
 
-from statorhom.materials.transversely_isotropic import TransverselyIsotropic
-from statorhom.mesh import MeshDensity, uniform
-from statorhom.model.affine import Material, assemble
-from statorhom.model.eigen import modes_below
-from statorhom.model.harmonic import harmonic_spaces
-from statorhom.model.radial_profile import radial_profile
-from statorhom.model.reduced import coefficients, lowest_pairs, reduce_harmonic
-from statorhom.model.stator_mode import VISIBLE
-
-TOP_HZ = 5000.0
-CENTRE = np.log([2.0, 11.0, 0.9])  # E_p, E_z, G_rz of the winding in GPa
-SPREAD = np.array([0.6, 0.5, 0.6])  # of their logarithms
+from statorhom.model.material_span import material_point
+from statorhom.model.reduced import material_box, reduce_harmonic
 
 
-def winding(z):
-    """Materials of a wound stator whose winding lies `z` standard deviations from the middle, (3,)."""
-    e_p, e_z, g = 1e9 * np.exp(CENTRE + SPREAD * z)
-    made = Material(TransverselyIsotropic(e_p, e_z, 0.33, 0.03, g).hooke(), 3100.0)
-    return {"lamination": STACK, "winding": made, "overhang": made}
+def test_every_material_is_trained_in_its_cell_and_around():
+    training = [stage.winding(np.zeros(3)), *stage.draws(40, 3)]
+    box = material_box(training, stage.wound().mesh.regions, most=5)
+    assert len(box.training) == 5
+    for materials in training:
+        point = material_point(materials, stage.wound().mesh.regions)
+        own = box.training[box.cells.locate(point)]
+        assert any(np.array_equal(point.hooke, p.hooke) for p in own)
+    for number, part in enumerate(box.training):
+        assert len(part) >= 12
+        assert box.cells.locate(part[0]) == number
 
 
-def draws(count, seed):
-    z = np.random.default_rng(seed).standard_normal((count, 3))
-    return [winding(row) for row in np.clip(z, -2.5, 2.5)]
+def test_the_certified_error_is_below_the_tolerance_at_all_training_materials():
+    assert 0.0 < stage.reduced().error <= stage.TOLERANCE
+    assert max(c.basis.shape[1] for c in stage.reduced().cells) < 0.2 * stage.space().size
 
 
-@pytest.fixture(scope="module")
-def wound():
-    cells = dict(uniform(1).cells) | {"core": 2, "yoke": 1, "overhang": 1, "radial": 1}
-    return assemble(stator_mesh(8, ("stack", "wound"), MeshDensity(cells)))
+def test_bases_have_unit_mass_and_diagonal_stiffness_at_the_reference():
+    for part, cell in zip(stage.box().training, stage.reduced().cells, strict=True):
+        mass = np.tensordot(part[0].density, cell.mass, axes=1)
+        np.testing.assert_allclose(mass, np.eye(len(mass)), atol=1e-8)
+        stiffness = np.tensordot(stage.box().span.weights(part[0]), cell.stiffness, axes=1)
+        np.testing.assert_allclose(
+            stiffness, np.diag(np.diag(stiffness)), atol=1e-8 * np.abs(stiffness).max()
+        )
 
 
-@pytest.fixture(scope="module")
-def reduced(wound):
-    space = harmonic_spaces(wound.mesh, 2)[0]
-    return reduce_harmonic(wound, space, [winding(np.zeros(3)), *draws(64, 1)], TOP_HZ)
+def test_one_material_makes_one_cell_without_error():
+    box = material_box([stage.winding(np.zeros(3))], stage.wound().mesh.regions)
+    alone = reduce_harmonic(stage.wound(), stage.space(), box, stage.TOP_HZ)
+    assert len(alone.cells) == 1
+    assert alone.error < 1e-9
 
 
-def full_modes(model, space, materials, top=TOP_HZ):
-    return modes_below(
-        space.project(model.stiffness_matrix(materials)), space.project(model.mass_matrix(materials)), top
-    )
-
-
-def test_frequencies_are_right_all_over_the_prior(wound, reduced):
-    """Thirty materials that the basis never saw: visible modes within 0.05 %."""
-    space, profile = reduced.harmonic, radial_profile(wound.mesh)
-    largest, seen = 0.0, 0
-    for materials in draws(30, 2):
-        exact, vectors = full_modes(wound, space, materials)
-        amplitudes = profile.orders(space, space.expand(vectors) / np.sqrt(space.copies))
-        mass = sum(materials[r].density * v for r, v in wound.volumes.items())
-        visible = (mass * np.mean(amplitudes**2, axis=0) > VISIBLE) & (exact > 1e4)
-        found, _ = reduced.modes(coefficients(materials), 1.2 * TOP_HZ)
-        error = np.sqrt(found[: len(exact)] / np.maximum(exact, 1e4)) - 1
-        largest = max(largest, error[visible].max(initial=0.0))
-        seen += visible.sum()
-        # Ritz values are upper bounds
-        assert np.all(found[: len(exact)] >= exact * (1 - 1e-7) - 1.0)
-    assert seen > 30
-    assert largest < 5e-4
-
-
-def test_the_error_it_states_is_of_the_size_of_the_true_one(reduced):
-    assert 0.0 < reduced.error < 3e-4
-    assert reduced.basis.shape[1] < 0.6 * reduced.basis.shape[0]
-
-
-def test_vectors_are_mass_normalised_shapes_of_the_full_model(wound, reduced):
-    materials = draws(1, 3)[0]
-    values, q = reduced.modes(coefficients(materials), TOP_HZ)
-    space = reduced.harmonic
-    K, M = (
-        space.project(matrix) for matrix in (wound.stiffness_matrix(materials), wound.mass_matrix(materials))
-    )
-    shapes = reduced.basis @ q
-    np.testing.assert_allclose(shapes.T @ (M @ shapes), np.eye(len(values)), atol=1e-6)
-    np.testing.assert_allclose(shapes.T @ (K @ shapes), np.diag(values), atol=1e-6 * np.abs(values).max())
-
-
-def test_other_densities_are_followed(reduced):
-    materials = winding(np.zeros(3))
-    heavy = {r: Material(m.hooke, 1.1 * m.density) for r, m in materials.items()}
-    light, dense = (reduced.modes(coefficients(m), TOP_HZ)[0] for m in (materials, heavy))
-    np.testing.assert_allclose(dense[: len(light)], light / 1.1, rtol=1e-7, atol=1.0)
-
-
-def test_one_material_is_exact_and_has_no_error(wound):
-    space = harmonic_spaces(wound.mesh, 3)[0]
-    alone = reduce_harmonic(wound, space, [MATERIALS], TOP_HZ)
-    exact, _ = full_modes(wound, space, MATERIALS)
-    np.testing.assert_allclose(alone.modes(coefficients(MATERIALS), TOP_HZ)[0], exact, rtol=1e-8, atol=1.0)
-    assert alone.error == 0.0
-
-
-def test_the_number_of_snapshots_is_limited_and_what_is_left_is_told(wound):
-    space = harmonic_spaces(wound.mesh, 2)[0]
-    training = [winding(np.zeros(3)), *draws(16, 1)]
-    small = reduce_harmonic(wound, space, training, TOP_HZ, most=3)
-    assert small.error > 1e-3
-    large = reduce_harmonic(wound, space, training, TOP_HZ, tolerance=1e-2)
-    assert large.error < 1e-2
-    assert small.basis.shape[1] < large.basis.shape[1]
-
-
-@pytest.mark.parametrize("unit_mass", [True, False])
-def test_dense_pairs(unit_mass):
-    rng = np.random.default_rng(4)
-    root = rng.standard_normal((9, 9))
-    K = root @ root.T
-    M = np.eye(9) if unit_mass else np.eye(9) + 0.05 * (root + root.T)
-    top = np.median(np.linalg.eigvals(np.linalg.solve(M, K)).real)
-    values, vectors = lowest_pairs(K, M, top)
-    assert 0 < len(values) < 9
-    assert np.all(values <= top)
-    np.testing.assert_allclose(K @ vectors, M @ vectors * values, atol=1e-9 * np.abs(K).max())
-    np.testing.assert_allclose(vectors.T @ M @ vectors, np.eye(len(values)), atol=1e-9)
+@pytest.mark.parametrize(("most", "met"), [(1, False), (60, True)])
+def test_what_a_limit_on_snapshots_leaves_is_told(most, met):
+    box = material_box([stage.winding(np.zeros(3)), *stage.draws(16, 1)], stage.wound().mesh.regions, most=1)
+    found = reduce_harmonic(stage.wound(), stage.space(), box, stage.TOP_HZ, most=most)
+    assert (found.error <= 3e-4) == met
+    assert not found.cells[0].basis.flags.writeable

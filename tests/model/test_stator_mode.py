@@ -7,7 +7,9 @@ from statorhom.model.stator_mode import RIGID_HZ, VISIBLE, name_modes
 
 
 def named(frequencies, amplitudes, axial=None, **changes):
-    options = {"order": 3, "multiplicity": 2, "mass": 4.0, "problem": 5} | changes
+    every = {"order": 3, "multiplicity": 2, "problem": 5} | changes
+    options = {name: [value] * len(frequencies) for name, value in every.items()}
+    options |= {"mass": 4.0, "column": range(len(frequencies))}
     values = (2 * np.pi * np.asarray(frequencies, float)) ** 2
     axial = np.arange(len(frequencies)) if axial is None else axial
     return name_modes(values, np.asarray(amplitudes, float), np.asarray(axial), **options)
@@ -35,5 +37,14 @@ def test_a_mode_that_hardly_moves_the_surface_has_no_name():
 def test_rigid_bodies_are_left_out_even_where_rounding_makes_them_negative():
     amplitudes = np.ones((2, 3))
     values = np.array([-1e-3, (2 * np.pi * 0.9 * RIGID_HZ) ** 2, (2 * np.pi * 1000.0) ** 2])
-    found = name_modes(values, amplitudes, np.zeros(3), order=1, multiplicity=2, mass=1.0, problem=0)
+    found = name_modes(
+        values,
+        amplitudes,
+        np.zeros(3),
+        order=[1] * 3,
+        multiplicity=[2] * 3,
+        mass=1.0,
+        problem=[0] * 3,
+        column=range(3),
+    )
     assert [mode.column for mode in found] == [2]

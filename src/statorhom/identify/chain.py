@@ -22,6 +22,7 @@ from statorhom.identify.stage_setup import StageSetup, analytic_values, check_fi
 from statorhom.identify.stage_shapes import free_shapes
 from statorhom.identify.supported_results import supported_results
 from statorhom.materials.density import RegionDensity
+from statorhom.model.basis_store import BasisStore
 from statorhom.modes.measured_shape import MeasuredShape
 from statorhom.results.files import check_folder, earlier_stages, write_results
 from statorhom.results.schema import RegionResult, Results, StageResult
@@ -117,7 +118,9 @@ class Chain:
         analytic = analytic_values(
             self.files, setup, _earlier_densities(self.files, self.geometry, setup.index)
         )
-        run = run_stage(setup, carried, analytic, self.settings, workers, announce)
+        run = run_stage(
+            setup, carried, analytic, self.settings, workers, announce, BasisStore(self.folder / "bases")
+        )
         shapes, rows = free_shapes(run)
         result = stage_result(run, state.mass_kg, state.regions, rows)
         progress = announce("supported tests", 1)

@@ -10,7 +10,7 @@ import numpy as np
 from statorhom.identify.bounds import Array, read_only
 from statorhom.identify.stage_materials import DENSITY, StageMaterials
 from statorhom.model.convergence import ModeKey, mode_keys
-from statorhom.model.free_modes import ReducedModes
+from statorhom.model.reduced_stator import ReducedModes
 
 # A constant is out of reach where its whole 90 % range moves every mode by less than this part (the usual spread of a
 # measured frequency) or, where no range is given, where doubling it would.

@@ -14,22 +14,15 @@ from statorhom.identify.model_error import model_error
 from statorhom.identify.optima import distinct_optima, find_optima
 from statorhom.identify.optimizers.annealing import SimulatedAnnealing
 from statorhom.identify.optimizers.threshold import ThresholdAccepting
-from statorhom.identify.optimizers.workers import Tick, Workers
+from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.parameters import Parameter, ParameterSpace
 from statorhom.identify.polish import Optimum, polish
 from statorhom.identify.stage_materials import DENSITY
 from statorhom.identify.stage_problem import MESH, StageProblem
-from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.affine import Materials
 from statorhom.model.convergence import ModeConvergence, ModeKey, mode_keys
-from statorhom.model.free_modes import ReducedStator, reduced_stator
-from statorhom.model.harmonic import Harmonic
-from statorhom.model.reduced import ReducedHarmonic, reduce_harmonic
 from statorhom.study.stages import IdentifyKeys
 
-# of the frequencies; the mesh factors compare the basis with the full model at the optimum: nothing remains there
-BASIS_TOLERANCE = 3e-4
-BAND = 1.1  # the basis is exact up to here, as a part of the highest measured frequency
-LOOK = 1.5  # modes are computed and paired up to here
 MOST_STARTS = 4  # optima of the coarse problem that are followed up
 HOPELESS = (
     16.0  # squared distance of a coarse optimum to the best one, hundreds of times that in the fine one
@@ -38,7 +31,6 @@ ROUNDS = 4  # of mesh correction and discrepancy
 MOVED = 30.0  # posterior standard deviations after which the mesh factors are computed again
 NEGLIGIBLE = 50.0  # an optimum whose posterior density is e⁻²⁵ of the best one's plays no part
 SETTLED = 0.1  # the discrepancy is settled when it changes by less than this part
-TRAINING = 128  # materials among which the basis picks its snapshots, a power of two
 # convergence study of the modes at given materials
 Refine = Callable[[Materials], tuple[ModeConvergence, ...]]
 
@@ -61,26 +53,6 @@ class StageFit:
     posterior: Posterior
     convergence: tuple[ModeConvergence, ...]
     evaluations: int
-
-
-def reduce_stage(
-    model: AffineModel,
-    training: Sequence[Materials],
-    spaces: Sequence[Harmonic],
-    highest_hz: float,
-    workers: Workers,
-    progress: Progress | None = None,
-) -> ReducedStator:
-    """Reduced bases of the given harmonic problems, one task each."""
-    tasks = [(model, space, tuple(training), BAND * highest_hz) for space in spaces]
-    problems = workers.map(_reduce, tasks, progress=progress)
-    return reduced_stator(model, problems, LOOK * highest_hz)
-
-
-def _reduce(task: tuple[AffineModel, Harmonic, tuple[Materials, ...], float], tick: Tick) -> ReducedHarmonic:
-    reduced = reduce_harmonic(*task, tolerance=BASIS_TOLERANCE)
-    tick()
-    return reduced
 
 
 def search_space(space: ParameterSpace) -> ParameterSpace:

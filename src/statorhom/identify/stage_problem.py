@@ -15,7 +15,7 @@ from statorhom.identify.problem import Problem
 from statorhom.identify.stage_materials import StageMaterials
 from statorhom.model.affine import Materials
 from statorhom.model.convergence import ModeKey, mode_keys
-from statorhom.model.free_modes import ReducedModes, ReducedStator
+from statorhom.model.reduced_stator import ReducedModes, ReducedStator
 from statorhom.model.stator_mode import StatorMode
 from statorhom.modes.pairing import Pairing, pair
 from statorhom.study.modal_table import MeasuredMode

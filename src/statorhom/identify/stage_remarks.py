@@ -52,6 +52,13 @@ def warnings(run: StageRun, modes: Sequence[ModeResult]) -> list[str]:
             found.append(
                 f"test {m.test!r}: the measured mode at {m.measured_hz:.0f} Hz has no simulated partner"
             )
+    if not run.basis.holds:
+        names = ", ".join(f"({r}, {n})" for r, n in run.basis.broken)
+        found.append(
+            f"stage {run.setup.keys.name!r}: at the result the reduced model of the search deviates from the full one "
+            f"by {100 * run.basis.deviation:.2g} %, more than its certificate allows, in {names}; widen the prior that "
+            "the result has left"
+        )
     if not run.fit.posterior.best.converged:
         found.append(
             f"stage {run.setup.keys.name!r}: the last descent did not settle; raise identify.evaluations"

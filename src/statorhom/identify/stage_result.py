@@ -157,10 +157,16 @@ def _summary(run: StageRun, modes: Sequence[ModeResult]) -> FitSummary:
         rms_percent=_rms(fitted) or 0.0,
         max_percent=max((abs(e) for e in fitted), default=0.0),
         held_out_rms_percent=_rms(held),
-        reduced_basis_error_percent=100 * run.basis_error,
+        reduced_basis_error_percent=_percent(run.basis_error),
+        reduced_basis_certified_percent=_percent(run.basis.certified),
+        reduced_basis_deviation_percent=100 * run.basis.deviation,
         unexplained_percent=100 * run.fit.problem.discrepancy,
         without_mesh_correction={n: plain[n] for n in new},
     )
+
+
+def _percent(part: float) -> float | None:
+    return 100 * part if np.isfinite(part) else None
 
 
 def _rms(errors: Sequence[float]) -> float | None:

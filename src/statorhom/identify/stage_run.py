@@ -7,18 +7,21 @@ from dataclasses import dataclass, replace
 from statorhom.errors import IdentificationError
 from statorhom.identify.announce import Announce
 from statorhom.identify.bands import highest_hz, mode_names
+from statorhom.identify.basis_check import BasisCheck, check_basis
 from statorhom.identify.model_error import ModelError, model_error
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.polish import Optimum, polish
 from statorhom.identify.priors import Carried, stage_space
 from statorhom.identify.refinement import Band, MeshSeries
 from statorhom.identify.settings import Settings
-from statorhom.identify.stage_fit import TRAINING, StageFit, fit_stage, reduce_stage, search_space
+from statorhom.identify.stage_basis import TRAINING, reduce_stage
+from statorhom.identify.stage_fit import StageFit, fit_stage, search_space
 from statorhom.identify.stage_problem import StageProblem
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.identify.training import training_materials
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.basis_store import BasisStore
 from statorhom.model.free_modes import FreeModes
 from statorhom.model.harmonic import problems_of
 
@@ -40,7 +43,8 @@ class StageRun:
     solution : free modes of the fitting mesh at the optimum.
     error : mesh factors of the full model's modes.
     plain : the optimum that the fitting mesh alone would give, without mesh factors.
-    basis_error : estimated relative frequency error of the reduced basis.
+    basis : the reduced model verified at the optimum.
+    basis_error : largest certified relative frequency error of the reduced model over the prior.
     """
 
     setup: StageSetup
@@ -50,6 +54,7 @@ class StageRun:
     solution: FreeModes
     error: ModelError
     plain: Optimum
+    basis: BasisCheck
     basis_error: float
 
 
@@ -60,6 +65,7 @@ def run_stage(
     settings: Settings,
     workers: Workers,
     announce: Announce,
+    store: BasisStore | None = None,
 ) -> StageRun:
     """Identify the constants of a step.
 
@@ -70,6 +76,7 @@ def run_stage(
     analytic : homogenized start values.
     settings, workers : of the run.
     announce : told what begins.
+    store : where reduced bases are kept between runs.
 
     Raises
     ------
@@ -88,8 +95,10 @@ def run_stage(
     top = highest_hz(setup.fitted)
     names = mode_names(model, typical, setup.fitted)
     problems = problems_of(model.mesh, names)
-    training = training_materials(searched, setup.materials, TRAINING)
-    reduced = reduce_stage(model, training, problems, top, workers, announce("reduced bases", len(problems)))
+    training = training_materials(space, setup.materials, TRAINING)
+    reduced = reduce_stage(
+        model, training, typical, problems, top, workers, announce("reduced bases", len(problems)), store
+    )
     problem = StageProblem(space, setup.materials, reduced, setup.fitted, ModelError())
     fitted_orders = {r for r, _ in names}
     orders = sorted(fitted_orders | {r for r, _ in mode_names(model, typical, setup.free_modes, BAND_MARGIN)})
@@ -129,5 +138,6 @@ def _finished(
         solution=solution,
         error=model_error(fit.convergence, same),
         plain=plain,
+        basis=check_basis(fit.problem.solve(best), solution),
         basis_error=basis_error,
     )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from scipy.special import ndtr, ndtri
 from scipy.stats import qmc
@@ -9,7 +11,7 @@ from scipy.stats import qmc
 from statorhom.errors import MaterialError
 from statorhom.identify.parameters import ParameterSpace
 from statorhom.identify.stage_materials import StageMaterials
-from statorhom.model.affine import Materials
+from statorhom.model.affine import Material, Materials
 
 REACH = 2.5  # standard deviations of the prior to either side, per coordinate
 
@@ -18,7 +20,8 @@ def training_materials(space: ParameterSpace, materials: StageMaterials, count: 
     """The prior mean first, then low-discrepancy draws of the prior; impossible materials are left out.
 
     Draws, not a uniform cover of a box: most of a box in five dimensions is corners that nobody believes in, and
-    a basis for them is twice as large.
+    a basis for them is twice as large. Densities are the same in all, rounded: a basis is right for every density, and
+    machines that differ by their weights alone share one.
 
     Parameters
     ----------
@@ -26,7 +29,8 @@ def training_materials(space: ParameterSpace, materials: StageMaterials, count: 
     materials : how constants become materials.
     count : number of points to try, a power of two.
     """
-    found = [materials.of(space.values(space.start))]
+    found = [_of_round_densities(materials.of(space.values(space.start)))]
+    densities = {region: m.density for region, m in found[0].items()}
     if space.dimension == 0:
         return found
     unit = qmc.Sobol(space.dimension, seed=0).random(count)
@@ -35,7 +39,18 @@ def training_materials(space: ParameterSpace, materials: StageMaterials, count: 
     points = space.prior_mean + normal @ np.linalg.cholesky(space.prior_covariance).T
     for point in space.bounds.clip(points):
         try:
-            found.append(materials.of(space.values(point)))
+            drawn = materials.of(space.values(point))
         except MaterialError:
             continue
+        found.append(_with_densities(drawn, densities))
     return found
+
+
+def _of_round_densities(materials: Materials) -> Materials:
+    return _with_densities(materials, {r: float(f"{m.density:.1e}") for r, m in materials.items()})
+
+
+def _with_densities(materials: Materials, densities: Mapping[str, float]) -> Materials:
+    """The materials with other densities; regions that share a material share the new one."""
+    made = {id(m): Material(m.hooke, densities[r]) for r, m in materials.items()}
+    return {r: made[id(m)] for r, m in materials.items()}

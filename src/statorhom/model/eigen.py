@@ -8,9 +8,9 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.linalg import eigh
 from scipy.sparse.linalg import LinearOperator, SuperLU, eigsh, splu
-from threadpoolctl import threadpool_limits
 
 from statorhom.errors import SolverError
+from statorhom.model.blas_threads import one_blas_thread
 
 # shift below zero, as a part of the band's highest eigenvalue: rigid bodies keep the matrix definite
 SHIFT = 0.05
@@ -55,6 +55,7 @@ def modes_below(
     most: int | None = None,
     back_end: Factorize = factorize,
     tolerance: float = 0.0,
+    beyond: int = 0,
 ) -> tuple[np.ndarray, np.ndarray]:
     """All eigenpairs of K x = λ M x up to a frequency, rigid-body modes included.
 
@@ -66,6 +67,7 @@ def modes_below(
     most : stop at this many modes although the band may hold more; None for all.
     back_end : factorizes the shifted matrix.
     tolerance : relative, of the eigenvalues above the shift; 0 for rounding alone.
+    beyond : how many of the next modes above the band to return too.
 
     Returns
     -------
@@ -79,14 +81,14 @@ def modes_below(
     """
     top = (2 * np.pi * highest_hz) ** 2
     sigma = -SHIFT * top
-    with threadpool_limits(limits=1, user_api="blas"):
+    with one_blas_thread():
         solve = back_end(sp.csr_array(K - sigma * M))
         count = expected if most is None else min(expected, most)
         while True:
             values, vectors = _lowest(K, M, sigma, solve, count, tolerance)
-            if values[-1] > top or len(values) == K.shape[0] or count == most:
-                keep = values <= top
-                return values[keep], vectors[:, keep]
+            inside = int((values <= top).sum())
+            if len(values) > inside + max(beyond - 1, 0) or len(values) == K.shape[0] or count == most:
+                return values[: inside + beyond], vectors[:, : inside + beyond]
             count = 2 * count if most is None else min(2 * count, most)
 
 
@@ -95,7 +97,7 @@ def lowest_modes(
 ) -> tuple[np.ndarray, np.ndarray]:
     """The `count` lowest eigenpairs; `scale_hz` is a typical frequency of theirs."""
     sigma = -SHIFT * (2 * np.pi * scale_hz) ** 2
-    with threadpool_limits(limits=1, user_api="blas"):
+    with one_blas_thread():
         return _lowest(K, M, sigma, factorize(sp.csr_array(K - sigma * M)), count)
 
 

@@ -1,8 +1,9 @@
-"""All modes of the free stator in a band, harmonic by harmonic, on the full or on a reduced model."""
+"""All modes of the free stator in a band, harmonic by harmonic, on the full model."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,10 +11,10 @@ import scipy.sparse as sp
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.eigen import modes_below
 from statorhom.model.harmonic import Harmonic, all_orders, harmonic_spaces
 from statorhom.model.radial_profile import RadialProfile, node_planes, radial_profile
-from statorhom.model.reduced import ReducedHarmonic, coefficients
 from statorhom.model.stator_mode import StatorMode, name_modes
 
 
@@ -45,6 +46,7 @@ def solve_free(
     highest_hz: float,
     orders: Iterable[int] | None = None,
     most: int | None = None,
+    jobs: int = 1,
 ) -> FreeModes:
     """Solve the full model.
 
@@ -55,8 +57,9 @@ def solve_free(
     highest_hz : upper end of the band.
     orders : harmonics to solve (default: all, 0 … N/2).
     most : lowest modes of each harmonic problem that are enough; None for all of the band.
+    jobs : threads; harmonics are independent, and factorizing one leaves the interpreter to the others.
     """
-    return problem_at(model, materials).solve(highest_hz, orders, most)
+    return problem_at(model, materials).solve(highest_hz, orders, most, jobs)
 
 
 @dataclass(frozen=True)
@@ -76,33 +79,63 @@ class FreeProblem:
     mass: float
 
     def solve(
-        self, highest_hz: float, orders: Iterable[int] | None = None, most: int | None = None
+        self,
+        highest_hz: float,
+        orders: Iterable[int] | None = None,
+        most: int | None = None,
+        jobs: int = 1,
     ) -> FreeModes:
         """Modes of the band; see `solve_free`."""
         profile = radial_profile(self.mesh)
-        harmonics: list[Harmonic] = []
-        modes: list[StatorMode] = []
-        shapes, profiles = [], []
-        for order in all_orders(self.mesh.slots) if orders is None else orders:
-            for harmonic in harmonic_spaces(self.mesh, order):
-                K, M = harmonic.project(self.K), harmonic.project(self.M)
-                values, vectors = modes_below(K, M, highest_hz, most=most)
-                shape = harmonic.expand(vectors) / np.sqrt(harmonic.copies)
-                amplitudes = profile.orders(harmonic, shape)
-                modes += name_modes(
-                    values,
-                    amplitudes,
-                    node_planes(amplitudes),
-                    order=order,
-                    multiplicity=harmonic.multiplicity,
-                    mass=self.mass,
-                    problem=len(harmonics),
-                )
-                harmonics.append(harmonic)
-                shapes.append(shape)
-                profiles.append(amplitudes)
+        wanted = all_orders(self.mesh.slots) if orders is None else orders
+
+        def solved(order: int) -> list[_Solved]:
+            spaces = harmonic_spaces(self.mesh, order)
+            return [self._solve_harmonic(space, profile, highest_hz, most) for space in spaces]
+
+        # the limit holds for all threads: entered by each, one would lift another's
+        with one_blas_thread(), ThreadPoolExecutor(max(1, jobs)) as pool:
+            found = [part for parts in pool.map(solved, wanted) for part in parts]
+        modes = [mode for i, part in enumerate(found) for mode in self._named(part, i)]
         modes.sort(key=lambda mode: mode.frequency_hz)
-        return FreeModes(tuple(modes), tuple(harmonics), tuple(shapes), tuple(profiles))
+        return FreeModes(
+            tuple(modes),
+            tuple(part.harmonic for part in found),
+            tuple(part.shape for part in found),
+            tuple(part.amplitudes for part in found),
+        )
+
+    def _solve_harmonic(
+        self, harmonic: Harmonic, profile: RadialProfile, highest_hz: float, most: int | None
+    ) -> _Solved:
+        values, vectors = modes_below(
+            harmonic.project(self.K), harmonic.project(self.M), highest_hz, most=most
+        )
+        shape = harmonic.expand(vectors) / np.sqrt(harmonic.copies)
+        return _Solved(harmonic, values, shape, profile.orders(harmonic, shape))
+
+    def _named(self, part: _Solved, number: int) -> list[StatorMode]:
+        count = len(part.values)
+        return name_modes(
+            part.values,
+            part.amplitudes,
+            node_planes(part.amplitudes),
+            order=[part.harmonic.order] * count,
+            multiplicity=[part.harmonic.multiplicity] * count,
+            mass=self.mass,
+            problem=[number] * count,
+            column=range(count),
+        )
+
+
+@dataclass(frozen=True)
+class _Solved:
+    """One harmonic problem: λ (k,), shapes (3 n, k) of unit modal mass, their amplitudes (planes, k)."""
+
+    harmonic: Harmonic
+    values: np.ndarray
+    shape: np.ndarray
+    amplitudes: np.ndarray
 
 
 def problem_at(model: AffineModel, materials: Materials) -> FreeProblem:
@@ -124,89 +157,3 @@ def strain_energy_shares(model: AffineModel, materials: Materials, shape: np.nda
         energy[region] = float(np.real(np.vdot(shape, K @ shape)))
     total = sum(energy.values())
     return {region: value / total for region, value in energy.items()}
-
-
-@dataclass(frozen=True)
-class ReducedStator:
-    """Reduced harmonics with what names their modes: an evaluation of all modes in milliseconds.
-
-    Parameters
-    ----------
-    problems : reduced harmonics.
-    profiles : per problem (p, k) radial order amplitudes of the basis.
-    volumes : region → volume (m³).
-    highest_hz : upper end of the band.
-    """
-
-    problems: tuple[ReducedHarmonic, ...]
-    profiles: tuple[np.ndarray, ...]
-    volumes: dict[str, float]
-    highest_hz: float
-
-    @property
-    def error(self) -> float:
-        """Largest relative frequency error that the bases met at their last snapshots."""
-        return max((p.error for p in self.problems), default=0.0)
-
-    def solve(self, materials: Materials) -> ReducedModes:
-        """Named modes in the band, sorted by frequency."""
-        mass = sum(materials[region].density * volume for region, volume in self.volumes.items())
-        modes: list[StatorMode] = []
-        weights = coefficients(materials)
-        vectors, eigenvalues = [], []
-        for number, (problem, profile) in enumerate(zip(self.problems, self.profiles, strict=True)):
-            values, q = problem.modes(weights, self.highest_hz)
-            amplitudes = profile @ (q / np.sqrt(problem.harmonic.copies))
-            modes += name_modes(
-                values,
-                amplitudes,
-                node_planes(amplitudes),
-                order=problem.harmonic.order,
-                multiplicity=problem.harmonic.multiplicity,
-                mass=mass,
-                problem=number,
-            )
-            vectors.append(q)
-            eigenvalues.append(values)
-        modes.sort(key=lambda mode: mode.frequency_hz)
-        return ReducedModes(self, tuple(modes), tuple(eigenvalues), tuple(vectors))
-
-
-@dataclass(frozen=True)
-class ReducedModes:
-    """Modes of one evaluation of a reduced stator, with what their derivatives need.
-
-    Parameters
-    ----------
-    stator : the reduced stator.
-    modes : sorted by frequency.
-    eigenvalues, vectors : per problem (k,) and (size of the basis, k), mass-normalised.
-    """
-
-    stator: ReducedStator
-    modes: tuple[StatorMode, ...]
-    eigenvalues: tuple[np.ndarray, ...]
-    vectors: tuple[np.ndarray, ...]
-
-    def log_frequency_gradient(self, mode: StatorMode) -> dict[str, tuple[np.ndarray, float]]:
-        """Region → derivative of ln f with respect to its nine Hooke entries and its density.
-
-        ∂λ/∂p = qᵀ(∂K/∂p - λ ∂M/∂p)q. The two modes of a doublet share one eigenvalue and lie in one problem as
-        a single vector: nothing is ambiguous.
-        """
-        problem = self.stator.problems[mode.problem]
-        q = self.vectors[mode.problem][:, mode.column]
-        value = self.eigenvalues[mode.problem][mode.column]
-        return {
-            region: (0.5 / value * (terms @ q @ q), -0.5 * float(q @ problem.mass[region] @ q))
-            for region, terms in problem.stiffness.items()
-        }
-
-
-def reduced_stator(
-    model: AffineModel, problems: Sequence[ReducedHarmonic], highest_hz: float
-) -> ReducedStator:
-    """Attach the radial profiles to reduced harmonics."""
-    profile: RadialProfile = radial_profile(model.mesh)
-    profiles = tuple(profile.orders(p.harmonic, p.harmonic.expand(p.basis)) for p in problems)
-    return ReducedStator(tuple(problems), profiles, dict(model.volumes), highest_hz)

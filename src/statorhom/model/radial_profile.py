@@ -51,10 +51,9 @@ def radial_profile(mesh: HalfPitchMesh) -> RadialProfile:
 
 def node_planes(profile: np.ndarray) -> np.ndarray:
     """Number of sign changes down each column of (p, k) amplitudes; planes near a node have no sign."""
-    signs = np.where(np.abs(profile) > 0.1 * np.abs(profile).max(axis=0), np.sign(profile), 0.0)
-    changes = np.zeros(profile.shape[1], dtype=int)
-    last = np.zeros(profile.shape[1])
-    for row in signs:
-        changes += (row * last) < 0
-        last = np.where(row != 0, row, last)
-    return changes
+    size = np.abs(profile)
+    seen = size > 0.1 * size.max(axis=0)
+    # the sign at every plane of the last one above it that has any
+    last = np.maximum.accumulate(np.where(seen, np.arange(len(profile))[:, None], -1), axis=0)
+    signs = np.where(last < 0, 0.0, np.sign(np.take_along_axis(profile, np.maximum(last, 0), axis=0)))
+    return np.asarray((signs[1:] * signs[:-1] < 0).sum(axis=0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,37 +44,37 @@ def name_modes(
     amplitudes: np.ndarray,
     axial: np.ndarray,
     *,
-    order: int,
-    multiplicity: int,
+    order: Sequence[int],
+    multiplicity: Sequence[int],
     mass: float,
-    problem: int,
+    problem: Sequence[int],
+    column: Sequence[int],
 ) -> list[StatorMode]:
-    """Modes of one harmonic problem.
+    """Modes of any harmonic problems, rigid bodies left out.
 
     Parameters
     ----------
     eigenvalues : (k,) rad²/s².
     amplitudes : (p, k) radial order amplitudes of shapes of unit modal mass, in planes over the core.
     axial : (k,) node planes.
-    order, multiplicity, problem : of the harmonic problem.
+    order, multiplicity, problem : of the harmonic problem of each mode.
     mass : of the stator (kg).
+    column : of each mode in its problem.
     """
     visibility = np.minimum(1.0, mass * np.mean(amplitudes**2, axis=0))
-    modes = []
-    for column, f in enumerate(frequency_hz(eigenvalues)):
-        if f < RIGID_HZ:
-            continue
-        radial = visibility[column] > VISIBLE
-        modes.append(
-            StatorMode(
-                frequency_hz=float(f),
-                order=order if radial else None,
-                axial=int(axial[column]) if radial else None,
-                kind="radial" if radial else "winding",
-                visibility=float(visibility[column]),
-                multiplicity=multiplicity,
-                problem=problem,
-                column=column,
-            )
+    radial = (visibility > VISIBLE).tolist()
+    frequencies, nodes, seen = frequency_hz(eigenvalues).tolist(), axial.tolist(), visibility.tolist()
+    return [
+        StatorMode(
+            f,
+            order[i] if radial[i] else None,
+            nodes[i] if radial[i] else None,
+            "radial" if radial[i] else "winding",
+            seen[i],
+            multiplicity[i],
+            problem[i],
+            column[i],
         )
-    return modes
+        for i, f in enumerate(frequencies)
+        if f >= RIGID_HZ
+    ]

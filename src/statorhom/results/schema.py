@@ -106,7 +106,9 @@ class FitSummary(_Frozen):
     rms_percent: float
     max_percent: float
     held_out_rms_percent: float | None = None
-    reduced_basis_error_percent: float | None = None
+    reduced_basis_error_percent: float | None = None  # certified, over the prior
+    reduced_basis_certified_percent: float | None = None  # certified, at the result
+    reduced_basis_deviation_percent: float | None = None  # from the full model, at the result
     unexplained_percent: float = 0.0
     shared_shift_percent: dict[str, float] = Field(default_factory=dict)
     without_mesh_correction: dict[str, float] = Field(default_factory=dict)

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve, ldl
 from scipy.sparse.linalg import LinearOperator, eigsh
 
-from statorhom.model.reduced import UNIT_MASS, lowest_pairs
+from statorhom.model.ritz import UNIT_MASS, lowest_pairs
 
 LARGE = 500  # coordinates from which on the band is too small a part for a full reduction
 

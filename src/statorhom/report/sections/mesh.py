@@ -112,13 +112,17 @@ def _cost(stage: StageResult, fit: FitSummary) -> list[Block]:
 
 
 def _reduction(fit: FitSummary) -> list[Block]:
-    if fit.reduced_basis_error_percent is None:
+    if fit.reduced_basis_deviation_percent is None:
         return []
-    least = max(fit.reduced_basis_error_percent, _LEAST_SHOWN_PERCENT)
+    deviation = max(fit.reduced_basis_deviation_percent, _LEAST_SHOWN_PERCENT)
     note = (
-        "During the search a reduced model stood in for the mesh; it changed no frequency by more than "
-        f"{least:.2g} %."
+        "During the search a reduced model stood in for the mesh. At the result, solved again without it, it "
+        f"changed no frequency by more than {deviation:.2g} %"
     )
+    if fit.reduced_basis_certified_percent is not None:
+        certified = max(fit.reduced_basis_certified_percent, _LEAST_SHOWN_PERCENT)
+        note += f"; its own certificate there is {certified:.2g} %"
+    note += "."
     return [Paragraph(text(note), "note")]
 
 

@@ -1,0 +1,226 @@
+"""Time and error of one certified evaluation of a stator's reduced model: all modes to 8 kHz.
+
+The box of materials is the program's own prior of each step of the 550 W machine; the wound step has a stack that is
+known. Random materials of the box are evaluated on the reduced and on the full model.
+
+    python benchmarks/evaluation.py
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from statorhom import Study
+from statorhom.errors import MaterialError
+from statorhom.identify.optimizers.workers import Tick, Workers
+from statorhom.identify.parameters import Parameter, ParameterSpace
+from statorhom.identify.priors import Carried, stage_space
+from statorhom.identify.refinement import MeshSeries
+from statorhom.identify.settings import Settings
+from statorhom.identify.stage_basis import BASIS_TOLERANCE, TRAINING
+from statorhom.identify.stage_fit import search_space
+from statorhom.identify.stage_materials import StageMaterials
+from statorhom.identify.stage_setup import analytic_values, stage_setup
+from statorhom.identify.training import REACH, training_materials
+from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.eigen import modes_below
+from statorhom.model.harmonic import Harmonic, all_orders, harmonic_spaces
+from statorhom.model.reduced import MaterialBox, ReducedHarmonic, material_box, reduce_harmonic
+from statorhom.model.reduced_stator import ReducedStator, reduced_stator
+from statorhom.study.atomic import write_text
+
+ROOT = Path(__file__).resolve().parents[1]
+STUDY = ROOT / "measurements" / "van-der-giet-550w" / "study-orthotropy.toml"
+FIGURES = ROOT / "benchmarks" / "figures" / "evaluation.json"
+STEPS = ("stack", "wound")
+TOP_HZ = 8000.0
+KNOWN = {
+    "E_p_pa": 190e9,
+    "E_z_pa": 30e9,
+    "nu_p": 0.3,
+    "nu_pz": 0.3,
+    "G_rz_pa": 10e9,
+}  # of the wound step's stack
+LEAST_HZ = 10.0  # a rigid body's frequency is all rounding
+
+
+def step_box(study: Study, name: str) -> tuple[AffineModel, ParameterSpace, StageMaterials]:
+    """Model, searched constants and materials of a step."""
+    index = study.stage_index(name)
+    setup = stage_setup(study.files, study.geometry, index)
+    assert setup.step is not None
+    densities = dict(setup.densities)
+    carried = Carried()
+    if index > 0:
+        stack = stage_setup(study.files, study.geometry, 0).densities["lamination"]
+        densities["lamination"] = stack
+        known = {f"lamination.{c}": v for c, v in KNOWN.items()}
+        known["lamination.density_kg_m3"] = stack.density_kg_m3
+        carried = Carried(tuple(Parameter.constant(n, v) for n, v in known.items()))
+    analytic = analytic_values(study.files, setup, densities)
+    space = stage_space(setup.keys, setup.materials, setup.new, densities, carried, analytic)
+    model = MeshSeries(setup.step, Settings().density, (1.0,)).coarsest
+    return model, search_space(space), setup.materials
+
+
+def random_materials(space: ParameterSpace, materials: StageMaterials, count: int) -> list[Materials]:
+    """Independent draws of the prior, cut where the training is cut."""
+    rng = np.random.default_rng(7)
+    root = np.linalg.cholesky(space.prior_covariance)
+    found: list[Materials] = []
+    while len(found) < count:
+        z = rng.standard_normal(space.dimension)
+        if np.abs(z).max() > REACH:
+            continue
+        try:
+            found.append(materials.of(space.values(space.bounds.clip(space.prior_mean + root @ z))))
+        except MaterialError:
+            continue
+    return found
+
+
+def _build(task: tuple[AffineModel, Harmonic, MaterialBox], tick: Tick) -> ReducedHarmonic:
+    tick()
+    return reduce_harmonic(*task, TOP_HZ, BASIS_TOLERANCE)
+
+
+def _exact(task: tuple[AffineModel, Harmonic, list[Materials]], tick: Tick) -> list[np.ndarray]:
+    """Eigenvalues of a harmonic's full model at all materials."""
+    model, harmonic, several = task
+    tick()
+    found = []
+    for materials in several:
+        K, M = model.stiffness_matrix(materials), model.mass_matrix(materials)
+        found.append(modes_below(harmonic.project(K), harmonic.project(M), TOP_HZ)[0])
+    return found
+
+
+def timed(stator: ReducedStator, several: Sequence[Materials]) -> dict[str, float]:
+    """Milliseconds of a certified evaluation with the modes' names: quantiles over the materials."""
+    for materials in several[:20]:
+        stator.solve(materials)
+    seconds, parts = [], []
+    for materials in several:
+        begin = time.perf_counter()
+        solution = stator.solve(materials)
+        solved = time.perf_counter()
+        bound = solution.largest_certified_error
+        certified = time.perf_counter()
+        assert solution.modes or bound >= 0.0
+        seconds.append(time.perf_counter() - begin)
+        parts.append((solved - begin, certified - solved))
+    quantiles = np.quantile(1e3 * np.array(seconds), (0.1, 0.5, 0.9))
+    found = dict(zip(("ms_10_percent", "ms_median", "ms_90_percent"), quantiles.tolist(), strict=True))
+    solve, certificate = 1e3 * np.median(parts, axis=0)
+    return {
+        **found,
+        "ms_median_modes": float(solve),
+        "ms_median_certificate": float(certificate),
+        "evaluations_per_second": float(1e3 / quantiles[1]),
+    }
+
+
+def errors(
+    stator: ReducedStator, several: Sequence[Materials], exact: Sequence[Sequence[np.ndarray]]
+) -> dict[str, float]:
+    """True and certified errors in percent, over all modes of the band and all materials."""
+    true: list[float] = []
+    certified: list[float] = []
+    modes = []
+    for number, materials in enumerate(several):
+        solution = stator.solve(materials)
+        count = 0
+        for batch, pairs, bounds in zip(solution.batches, solution.pairs, solution.certificates, strict=True):
+            for row, problem in enumerate(batch.problems):
+                # a mode within the error of the band's end may be in the one and not in the other
+                shared = min(len(exact[problem][number]), pairs.counts[row])
+                values, found = exact[problem][number][:shared], pairs.values[row, :shared]
+                moving = values > (2 * np.pi * LEAST_HZ) ** 2
+                true += (np.sqrt(found[moving] / values[moving]) - 1).tolist()
+                certified += bounds[row, :shared][moving].tolist()
+                count += stator.kinds[problem].multiplicity * int(moving.sum())
+        modes.append(count)
+    t, c = np.array(true), np.array(certified)
+    visible = t > 1e-7
+    return {
+        "materials": len(several),
+        "modes_median": float(np.median(modes)),
+        "true_percent_median": float(100 * np.median(t)),
+        "true_percent_99": float(100 * np.quantile(t, 0.99)),
+        "true_percent_largest": float(100 * t.max()),
+        "materials_beyond_0_05_percent_modes": int((t > 5e-4).sum()),
+        "certified_percent_median": float(100 * np.median(c)),
+        "certified_percent_99": float(100 * np.quantile(c, 0.99)),
+        "bound_holds_percent": float(100 * np.mean(c >= t - 1e-9)),
+        "effectivity_median": float(np.median((c / t)[visible])),
+    }
+
+
+def measured_step(study: Study, name: str, points: int, jobs: int) -> dict[str, Any]:
+    """All figures of a step."""
+    model, space, materials = step_box(study, name)
+    training = training_materials(space, materials, TRAINING)
+    box = material_box(training, model.mesh.regions)
+    spaces = [s for h in all_orders(model.mesh.slots) for s in harmonic_spaces(model.mesh, h)]
+    several = random_materials(space, materials, points)
+    typical = materials.of(space.values(space.start))
+    with Workers(jobs) as workers:
+        begin = time.perf_counter()
+        problems = workers.map(_build, [(model, s, box) for s in spaces])
+        build = time.perf_counter() - begin
+        stator = reduced_stator(model, box, problems, TOP_HZ, typical)
+        begin = time.perf_counter()
+        exact = workers.map(_exact, [(model, s, several) for s in spaces])
+        full = (time.perf_counter() - begin) / points
+    sizes = [c.basis.shape[1] for p in problems for c in p.cells]
+    with threadpool_limits(limits=1, user_api="blas"):
+        limited = timed(stator, several)
+    default = timed(stator, several)
+    found: dict[str, Any] = {
+        "degrees_of_freedom": model.mesh.full_dof,
+        "searched_constants": space.dimension,
+        "harmonic_problems": len(spaces),
+        "cells": len(box.training),
+        "basis_vectors_median": float(np.median(sizes)),
+        "basis_vectors_largest": max(sizes),
+        "build_seconds": build,
+        "full_model_seconds_per_material": full,
+        "one_blas_thread": limited,
+        "default_blas_threads": default,
+    }
+    return found | errors(stator, several, exact)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--steps", nargs="+", choices=STEPS, default=list(STEPS))
+    parser.add_argument("--points", type=int, default=200, help="random materials")
+    parser.add_argument(
+        "--jobs", type=int, default=2, help="processes that build and that solve the full model"
+    )
+    parser.add_argument("--figures", type=Path, default=FIGURES, help="JSON file to write")
+    options = parser.parse_args()
+    study = Study.load(STUDY)
+    figures: dict[str, Any] = {"band_hz": TOP_HZ, "processors": os.cpu_count(), "jobs": options.jobs}
+    for name in options.steps:
+        figures[name] = measured_step(study, name, options.points, options.jobs)
+        print(name)
+        for key, value in figures[name].items():
+            print(f"  {key}: {value}")
+    figures["load_average_after"] = round(os.getloadavg()[0], 1)
+    write_text(options.figures, json.dumps(figures, indent=2) + "\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,121 @@
+"""Time one whole step's fit on a uniform mesh of 143 000 degrees of freedom, and set it against one CalculiX run on it.
+
+The fit: mesh, reduced bases, 5000 evaluations, polish, intervals, verification on the full model; in two processes,
+from nothing. The CalculiX run: the first modes of the stack on the same mesh, one thread. Both are measured one
+after the other. The extrapolation over finer meshes, which a study adds, is left out: it is no part of a step on this
+mesh. Nothing is written where ccx is missing.
+
+    python benchmarks/step_fit.py
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import shutil
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+from calculix import INSTALL, ROOT, ccx_version
+from study_time import CELLS, MODES, timed_calculix
+
+from statorhom import Study
+from statorhom.identify.announce import Progress
+from statorhom.identify.optimizers.workers import Workers
+from statorhom.identify.priors import Carried
+from statorhom.identify.settings import Settings
+from statorhom.identify.stage_run import StageRun, run_stage
+from statorhom.identify.stage_setup import StageSetup, analytic_values, stage_setup
+from statorhom.mesh import MeshDensity, mesh_step, uniform
+from statorhom.study.atomic import write_text
+
+STUDY = ROOT / "measurements" / "van-der-giet-550w" / "study-orthotropy.toml"
+FIGURES = ROOT / "benchmarks" / "figures" / "step_fit.json"
+DENSITY = MeshDensity(uniform().cells | CELLS)
+EVALUATIONS = 5000
+
+
+class Clock:
+    """Seconds at which each part of the fit began."""
+
+    def __init__(self) -> None:
+        self.begin = time.perf_counter()
+        self.parts: dict[str, float] = {}
+
+    def __call__(self, what: str, _count: int) -> Progress:
+        self.parts[what] = time.perf_counter() - self.begin
+        return lambda _done: None
+
+
+def fitted(study: Study, jobs: int) -> tuple[StageRun, dict[str, float]]:
+    """The stack's fit, and the seconds of its parts."""
+    setup = _longer(stage_setup(study.files, study.geometry, 0))
+    settings = Settings(jobs=jobs, density=DENSITY, refinements=(1.0,))
+    clock = Clock()
+    with Workers(jobs) as workers:
+        run = run_stage(setup, Carried(), analytic_values(study.files, setup, {}), settings, workers, clock)
+        run.fit.posterior.estimates()
+    whole = time.perf_counter() - clock.begin
+    bases, search = clock.parts["reduced bases"], clock.parts["search"]
+    return run, {
+        "mesh_and_orders": bases,
+        "reduced_bases": search - bases,
+        "search_polish_intervals_verification": whole - search,
+        "whole": whole,
+    }
+
+
+def _longer(setup: StageSetup) -> StageSetup:
+    keys = setup.keys.model_copy(
+        update={"identify": setup.keys.identify.model_copy(update={"evaluations": EVALUATIONS})}
+    )
+    return replace(setup, keys=keys)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--jobs", type=int, default=2, help="processes of the fit")
+    parser.add_argument("--figures", type=Path, default=FIGURES, help="JSON file to write")
+    options = parser.parse_args()
+    study = Study.load(STUDY)
+    run, seconds = fitted(study, options.jobs)
+    for part, value in seconds.items():
+        print(f"{part}: {value:.1f} s")
+    print(
+        f"reduced model at the result: {100 * run.basis.deviation:.4f} % from the full one, "
+        f"certified {100 * run.basis.certified:.4f} %"
+    )
+    program = shutil.which("ccx")
+    if program is None:
+        sys.exit(f"no ratio: {INSTALL}")
+    step = study.geometry.step(("stack",))
+    half = mesh_step(step, DENSITY)
+    ccx = timed_calculix(program, half.full()[0])
+    ratio = seconds["whole"] / ccx.wall
+    print(f"CalculiX: {ccx.wall:.1f} s, {half.full_dof} DOF; fit over CalculiX: {ratio:.2f}")
+    figures = {
+        "study": STUDY.relative_to(ROOT).as_posix(),
+        "jobs": options.jobs,
+        "processors": os.cpu_count(),
+        "load_average_after": round(os.getloadavg()[0], 1),
+        "evaluations": EVALUATIONS,
+        "degrees_of_freedom": half.full_dof,
+        "harmonic_problems": len(run.fit.problem.solver.kinds),
+        "seconds": {part: round(value, 1) for part, value in seconds.items()},
+        "basis_deviation_percent": 100 * run.basis.deviation,
+        "basis_certified_percent": 100 * run.basis.certified,
+        "ccx_version": ccx_version(program),
+        "ccx_modes": MODES,
+        "ccx_seconds": round(ccx.wall, 1),
+        "ratio": round(ratio, 2),
+    }
+    write_text(options.figures, json.dumps(figures, indent=2) + "\n")
+
+
+if __name__ == "__main__":
+    main()

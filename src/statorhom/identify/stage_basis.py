@@ -1,0 +1,71 @@
+"""The reduced model that stands in for a stage's mesh, built by all processes or taken from the store."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from statorhom.identify.announce import Progress
+from statorhom.identify.optimizers.workers import Tick, Workers
+from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.basis_store import BasisStore, basis_key
+from statorhom.model.harmonic import Harmonic
+from statorhom.model.reduced import MaterialBox, ReducedHarmonic, material_box, reduce_harmonic
+from statorhom.model.reduced_stator import ReducedStator, reduced_stator
+
+# of the frequencies, certified; the mesh factors compare the basis with the full model at the optimum: nothing of
+# it remains there
+BASIS_TOLERANCE = 3e-4
+BAND = 1.1  # the basis is exact up to here, as a part of the highest measured frequency
+STEP = 1.05  # bands are rounded up to powers of it
+LOOK = 1.5  # modes are computed and paired up to here
+TRAINING = 512  # materials among which the bases pick their snapshots, a power of two
+
+BasisTask = tuple[AffineModel, Harmonic, MaterialBox, float, BasisStore | None]
+
+
+def reduce_stage(
+    model: AffineModel,
+    training: Sequence[Materials],
+    typical: Materials,
+    spaces: Sequence[Harmonic],
+    highest_hz: float,
+    workers: Workers,
+    progress: Progress | None = None,
+    store: BasisStore | None = None,
+) -> ReducedStator:
+    """Reduced bases of the given harmonic problems, one task each.
+
+    Parameters
+    ----------
+    model : of the mesh.
+    training : materials that cover the box.
+    typical : evaluations are fastest at its densities.
+    spaces : harmonic problems.
+    highest_hz : highest measured frequency.
+    workers, progress : processes, and what counts the problems that are done.
+    store : where bases are kept between runs; None to build them anew.
+    """
+    box = material_box(training, model.mesh.regions)
+    band = _rounded_up(BAND * highest_hz)
+    tasks = [(model, space, box, band, store) for space in spaces]
+    problems = workers.map(_reduce, tasks, progress=progress)
+    return reduced_stator(model, box, problems, LOOK * highest_hz, typical)
+
+
+def _rounded_up(hz: float) -> float:
+    """To a power of `STEP`: machines of one kind share a band."""
+    return float(STEP ** np.ceil(np.log(hz) / np.log(STEP)))
+
+
+def _reduce(task: BasisTask, tick: Tick) -> ReducedHarmonic:
+    model, space, box, highest_hz, store = task
+    key = basis_key(model.mesh, space, box, highest_hz, BASIS_TOLERANCE)
+    reduced = None if store is None else store.read(key, space, box, highest_hz)
+    if reduced is None:
+        reduced = reduce_harmonic(model, space, box, highest_hz, BASIS_TOLERANCE)
+        if store is not None:
+            store.write(key, reduced)
+    tick()
+    return reduced

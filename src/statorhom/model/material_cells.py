@@ -1,0 +1,74 @@
+"""Materials divided into cells: within one they are alike, so that a small basis serves all of it.
+
+Two materials are as far apart as the logarithms of their stiffnesses, the largest difference of all directions and
+regions: within a radius ρ energies differ by a factor of about e^ρ at most.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from statorhom.model.material_span import MaterialPoint
+
+DIAGONAL = [0, 1, 2, 6, 7, 8]  # of the nine Hooke entries
+COUPLED = ((3, 0, 1), (4, 0, 2), (5, 1, 2))  # an off-diagonal entry and the two diagonal ones that bound it
+
+
+def features(point: MaterialPoint) -> np.ndarray:
+    """What distances are measured in: logarithms of diagonal entries, and the off-diagonal ones over them."""
+    hooke = point.hooke
+    ratios = [hooke[:, q] / np.sqrt(hooke[:, i] * hooke[:, j]) for q, i, j in COUPLED]
+    return np.concatenate([np.log(hooke[:, DIAGONAL]).ravel(), *ratios, np.log(point.density)])
+
+
+def stiffness_ratio(point: MaterialPoint, reference: MaterialPoint) -> float:
+    """Largest α with K + σM ≥ α (K + σM of the reference), for every mesh and every shift σ ≥ 0."""
+    block, of_reference = _normal_blocks(point.hooke), _normal_blocks(reference.hooke)
+    root = np.linalg.inv(np.linalg.cholesky(of_reference))
+    normal = np.linalg.eigvalsh(root @ block @ root.transpose(0, 2, 1)).min()
+    shear = (point.hooke[:, 6:] / reference.hooke[:, 6:]).min()
+    return float(min(normal, shear, (point.density / reference.density).min()))
+
+
+def _normal_blocks(hooke: np.ndarray) -> np.ndarray:
+    return hooke[:, [0, 3, 4, 3, 1, 5, 4, 5, 2]].reshape(-1, 3, 3)
+
+
+@dataclass(frozen=True)
+class MaterialCells:
+    """Cells around centres: a material belongs to the nearest.
+
+    Parameters
+    ----------
+    centres : (cells, features).
+    """
+
+    centres: np.ndarray
+
+    def locate(self, point: MaterialPoint) -> int:
+        """Number of the cell."""
+        return int(self.distances(point).argmin())
+
+    def distances(self, point: MaterialPoint) -> np.ndarray:
+        """Distances to all centres (cells,)."""
+        return np.asarray(np.abs(self.centres - features(point)).max(axis=1))
+
+
+def material_cells(
+    points: Sequence[MaterialPoint], radius: float, most: int
+) -> tuple[MaterialCells, list[int]]:
+    """Cells that cover materials, and the number of the material in the middle of each.
+
+    The next centre is the material farthest from all centres (Gonzalez 1985: at most twice the best radius), until
+    none is farther than `radius` or there are `most` cells.
+    """
+    described = np.array([features(p) for p in points])
+    chosen = [0]
+    distance = np.abs(described - described[0]).max(axis=1)
+    while distance.max() > radius and len(chosen) < most:
+        chosen.append(int(distance.argmax()))
+        distance = np.minimum(distance, np.abs(described - described[chosen[-1]]).max(axis=1))
+    return MaterialCells(described[chosen]), chosen

@@ -1,0 +1,139 @@
+"""The materials that a reduced basis knows: a few combinations of Hooke entries per region.
+
+A transversely isotropic region moves in five directions of the nine-dimensional space of Hooke entries, an isotropic
+one in two: operators are projected once per direction, not per entry.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from statorhom.errors import SolverError
+from statorhom.model.affine import Materials, hooke_coefficients
+from statorhom.model.assembly import HOOKE_ENTRIES
+
+OUTSIDE = 1e-6  # relative part of a Hooke's matrix that may lie outside the span
+
+
+@dataclass(frozen=True)
+class MaterialPoint:
+    """Materials as numbers, regions in a fixed order.
+
+    Parameters
+    ----------
+    hooke : (regions, 9) Hooke entries (Pa).
+    density : (regions,) kg/m³.
+    """
+
+    hooke: np.ndarray
+    density: np.ndarray
+
+
+def material_point(materials: Materials, regions: Sequence[str]) -> MaterialPoint:
+    """Numbers of the regions' materials; a material that several regions share is read once."""
+    entries = {id(materials[r]): hooke_coefficients(materials[r].hooke) for r in regions}
+    return MaterialPoint(
+        np.array([entries[id(materials[r])] for r in regions]),
+        np.array([materials[r].density for r in regions]),
+    )
+
+
+@dataclass(frozen=True)
+class MaterialSpan:
+    """Directions in which the regions' Hooke entries move.
+
+    Parameters
+    ----------
+    regions : in the order of all arrays.
+    entries : region → (s,) the Hooke entries that determine the others.
+    directions : region → (9, s) all Hooke entries per unit of these.
+    """
+
+    regions: tuple[str, ...]
+    entries: Mapping[str, np.ndarray]
+    directions: Mapping[str, np.ndarray]
+
+    @property
+    def size(self) -> int:
+        """Number of directions of all regions."""
+        return sum(len(e) for e in self.entries.values())
+
+    def weights(self, point: MaterialPoint) -> np.ndarray:
+        """Weights of the directions (size,): the determining Hooke entries of all regions (Pa).
+
+        Raises
+        ------
+        SolverError
+            If a material is of another kind than those that the basis was trained on.
+        """
+        found = []
+        for hooke, region in zip(point.hooke, self.regions, strict=True):
+            weight = hooke[self.entries[region]]
+            if np.abs(self.directions[region] @ weight - hooke).max() > OUTSIDE * np.abs(hooke).max():
+                raise SolverError(
+                    f"region {region!r}: its material has another symmetry than those of the reduced basis; "
+                    "build a basis for it"
+                )
+            found.append(weight)
+        return np.concatenate(found)
+
+    def hooke_gradients(self, gradient: np.ndarray) -> dict[str, np.ndarray]:
+        """Region → derivative with respect to its nine entries, from that with respect to the weights (size,).
+
+        All of it is put on the determining entries: right for every change of material within the span, and no
+        other can happen.
+        """
+        found, first = {}, 0
+        for region in self.regions:
+            entries = self.entries[region]
+            found[region] = np.zeros(len(HOOKE_ENTRIES))
+            found[region][entries] = gradient[first : first + len(entries)]
+            first += len(entries)
+        return found
+
+
+def material_span(points: Sequence[MaterialPoint], regions: Sequence[str]) -> MaterialSpan:
+    """The narrowest symmetry of every region that holds all its materials."""
+    chosen = {region: _narrowest(np.array([p.hooke[i] for p in points])) for i, region in enumerate(regions)}
+    return MaterialSpan(
+        tuple(regions), {r: c[0] for r, c in chosen.items()}, {r: c[1] for r, c in chosen.items()}
+    )
+
+
+def _narrowest(hooke: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    size = np.abs(hooke).max(axis=1, keepdims=True)
+    return next(
+        (entries, directions)
+        for entries, directions in SYMMETRIES
+        if np.all(np.abs(hooke[:, entries] @ directions.T - hooke) <= OUTSIDE * size)
+    )
+
+
+def _symmetry(*columns: Mapping[str, float]) -> tuple[np.ndarray, np.ndarray]:
+    """Determining entries, the first of every column, and all entries per unit of each."""
+    directions = np.zeros((len(HOOKE_ENTRIES), len(columns)))
+    for j, column in enumerate(columns):
+        for name, value in column.items():
+            directions[HOOKE_ENTRIES.index((int(name[0]) - 1, int(name[1]) - 1)), j] = value
+    entries = [int(np.flatnonzero(column == 1.0)[0]) for column in directions.T]
+    return np.array(entries), directions
+
+
+# isotropic, transversely isotropic about axis 3, orthotropic: each holds those before it
+SYMMETRIES = (
+    _symmetry(
+        {"11": 1, "22": 1, "33": 1, "44": 0.5, "55": 0.5, "66": 0.5},
+        {"12": 1, "13": 1, "23": 1, "44": -0.5, "55": -0.5, "66": -0.5},
+    ),
+    _symmetry(
+        {"11": 1, "22": 1, "66": 0.5},
+        {"33": 1},
+        {"12": 1, "66": -0.5},
+        {"13": 1, "23": 1},
+        {"44": 1, "55": 1},
+    ),
+    _symmetry(*({f"{i + 1}{j + 1}": 1.0} for i, j in HOOKE_ENTRIES)),
+)
