@@ -24,7 +24,7 @@ from statorhom.model.broken.solve import solve_broken
 from statorhom.model.broken.variations import region_stiffness, strip, wave
 from statorhom.model.eigen import frequency_hz
 from statorhom.model.harmonic import harmonic_spaces
-from statorhom.model.reduced import lowest_pairs
+from statorhom.model.ritz import lowest_pairs
 from statorhom.model.supported_shapes import ShapePart, SupportedModes
 from statorhom.model.surface import surface_points
 
