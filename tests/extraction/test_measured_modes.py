@@ -32,7 +32,7 @@ def test_modes_are_found_with_their_names(ring: MeasuredModes) -> None:
 
 def test_linear_modes_raise_no_hint(ring: MeasuredModes) -> None:
     assert [one.hints.remarkable for one in ring.modes if one.hints] == [False, False]
-    assert not [remark for remark in ring.remarks if "non-linear" in remark]
+    assert not [remark for remark in ring.remarks if "linear" in remark]
 
 
 def test_a_split_doublet_is_a_pair(tmp_path: Path) -> None:

@@ -100,7 +100,6 @@ def test_a_step_without_dimensions_and_tests_is_a_weight(tmp_path: Path) -> None
             r"stages\[stack\].identify.evaluations: 60 .* 2 chains; .* at least 100",
         ),
         ('"stack.csv"', '"stack.csv"\nhold_out = [1, 2]', r"stages\[stack\]: no mode is left to fit"),
-        ('modal_table = "stack.csv"', 'frf = "stack.csv"', r"tests\[stack-free\]: recordings \(stack.csv\)"),
     ],
 )
 def test_what_cannot_be_fitted_is_refused(old: str, new: str, message: str, tmp_path: Path) -> None:

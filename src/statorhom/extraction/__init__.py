@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from statorhom.extraction.circle_fit import CircleFit, SdofModel, circle_fit, regenerate, sdof_model
 from statorhom.extraction.cmif import cmif
-from statorhom.extraction.complexity import phase_collinearity, real_shape
 from statorhom.extraction.extract import extract
 from statorhom.extraction.extraction import ExtractedMode, Extraction
 from statorhom.extraction.local_poles import LocalPoles, local_poles
@@ -21,8 +20,6 @@ __all__ = [
     "cmif",
     "extract",
     "local_poles",
-    "phase_collinearity",
-    "real_shape",
     "regenerate",
     "sdof_model",
 ]

@@ -144,7 +144,8 @@ def _with_hints(modes: Sequence[NamedMode], frfs: FrfSet) -> tuple[NamedMode, ..
 
 def _non_linear(modes: Sequence[NamedMode]) -> list[str]:
     return [
-        f"the mode at {one.mode.frequency_hz:.2f} Hz looks non-linear: {one.hints.statement}"
+        f"the peak at {one.mode.frequency_hz:.2f} Hz is not that of one linear mode: {one.hints.statement}; "
+        "the mode is not linear, or another one hides in it"
         for one in modes
         if one.hints is not None and one.hints.remarkable
     ]

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.extraction.complexity import in_phase, phase_collinearity
 from statorhom.extraction.extraction import ExtractedMode
 from statorhom.extraction.modal_model import free_parts
 from statorhom.extraction.mode_search import FittedWindow
 from statorhom.extraction.point_grid import PointGrid
 from statorhom.extraction.pole_price import dispersion, misfit
 from statorhom.extraction.stabilization import Stabilization
+from statorhom.modes.phase import in_phase, phase_collinearity
 from statorhom.recordings.dof import Dof
 
 FloatArray = npt.NDArray[np.float64]

@@ -24,10 +24,18 @@ def real_phase(shape: npt.ArrayLike) -> float:
     return float(0.5 * np.angle(np.sum(_present(shape) ** 2)))
 
 
+def in_phase(shape: npt.ArrayLike) -> npt.NDArray[np.complex128]:
+    """The shape turned by that phase, its largest value with a positive real part; NaN stays."""
+    turned = np.asarray(shape, dtype=complex) * np.exp(-1j * real_phase(shape))
+    if not np.isfinite(turned).any():
+        return turned
+    largest = turned.ravel()[np.nanargmax(np.abs(turned))]
+    return -turned if largest.real < 0 else turned
+
+
 def real_shape(shape: npt.ArrayLike) -> FloatArray:
-    """Real part of the shape after its rotation; the sign is free, NaN stays."""
-    real: FloatArray = (np.asarray(shape, dtype=complex) * np.exp(-1j * real_phase(shape))).real
-    return real
+    """Real part of the shape after its rotation, its largest value positive; NaN stays."""
+    return np.asarray(in_phase(shape).real)
 
 
 def _present(shape: npt.ArrayLike) -> npt.NDArray[np.complex128]:
