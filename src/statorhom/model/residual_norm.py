@@ -47,7 +47,8 @@ def residual_norm(
     t, k = gram.shape[:2]
     size = t * k
     unit = (scales[:, None] / np.sqrt(energies)).ravel()
-    scaled = gram.reshape(size, size) * unit[:, None] * unit
+    square = gram.reshape(size, size)
+    scaled = (square + square.T) / 2 * unit[:, None] * unit
     # Cholesky with pivots stops where the largest remaining diagonal is small; the remainder's trace bounds it
     triangle, pivots, rank, _ = lapack.dpstrf(scaled, tol=negligible / (t * size))
     rows = np.zeros((rank, size))
