@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pandas as pd
@@ -69,7 +69,7 @@ def fit_fleet(
     seed: int = 1,
     announce: Announce = silent,
 ) -> FleetResults:
-    """Identify all machines of a fleet; each gets the very results that a fit of its own would give it.
+    """Identify all machines of a fleet; what a machine's results are does not depend on the others.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def fit_fleet(
         At the end, if the program itself is at fault with one of the machines.
     """
     folder = Path(out).absolute()
-    machines = load_fleet(studies, folder, Settings(seed=seed))
+    machines = load_fleet(studies, folder, replace(Settings(seed=seed), shared_bases=True))
     check_folder(folder)
     done: dict[str, Results] = {}
     endings: dict[str, Ending] = {}

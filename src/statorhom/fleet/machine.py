@@ -27,7 +27,7 @@ class Machine:
     files : the study.
     folder : of its results.
     bases : folder of the reduced bases that all machines share.
-    settings : of the run; one machine keeps one process busy.
+    settings : of the run; a machine keeps one process busy.
     """
 
     files: StudyFiles

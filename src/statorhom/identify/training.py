@@ -10,9 +10,11 @@ from scipy.stats import qmc
 
 from statorhom.errors import MaterialError
 from statorhom.identify.parameters import ParameterSpace
+from statorhom.identify.stage_basis import rounded_up
 from statorhom.identify.stage_materials import StageMaterials
 from statorhom.model.affine import Material, Materials
 
+DENSITY_STEP = 1.1  # densities are rounded up to powers of it
 REACH = 2.5  # standard deviations of the prior to either side, per coordinate
 
 
@@ -21,7 +23,8 @@ def training_materials(space: ParameterSpace, materials: StageMaterials, count: 
 
     Draws, not a uniform cover of a box: most of a box in five dimensions is corners that nobody believes in, and
     a basis for them is twice as large. Densities are the same in all, rounded: a basis is right for every density, and
-    machines that differ by their weights alone share one.
+    machines that differ by their weights alone share one. They are rounded up: the heavier, the more modes lie in
+    the band.
 
     Parameters
     ----------
@@ -47,7 +50,7 @@ def training_materials(space: ParameterSpace, materials: StageMaterials, count: 
 
 
 def _of_round_densities(materials: Materials) -> Materials:
-    return _with_densities(materials, {r: float(f"{m.density:.1e}") for r, m in materials.items()})
+    return _with_densities(materials, {r: rounded_up(m.density, DENSITY_STEP) for r, m in materials.items()})
 
 
 def _with_densities(materials: Materials, densities: Mapping[str, float]) -> Materials:
