@@ -12,12 +12,14 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
+import cheap_study
 from cheap_fleet import Inline, modulus_ratios, write_fleet, write_machine
 from cheap_study import coarse, edit
 from statorhom.errors import IdentificationError, ResultsError
 from statorhom.fleet import FleetResults, fit_fleet
 from statorhom.fleet.local import LocalProcesses
 from statorhom.identify.chain import chain
+from statorhom.model.basis_store import BasisStore
 from statorhom.results.files import read_results
 from statorhom.study.study import load_study
 
@@ -105,6 +107,23 @@ def test_machines_share_their_bases(whole: tuple[list[Path], Path], tmp_path: Pa
     fit_fleet(studies[:1], tmp_path / "out", Inline())
     single = len(list((tmp_path / "out" / "bases").iterdir()))
     assert single <= len(list((out / "bases").iterdir())) <= 2 * single
+
+
+def test_later_steps_share_theirs_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever the first step has told of each machine."""
+    studies = [cheap_study.write_study(tmp_path / name) for name in ("a", "b")]
+    for path, frequency in zip(studies, ("3090", "3060"), strict=True):
+        edit(path, 'name = "ring"', f'name = "{path.parent.name}"')
+        edit(path.parent / "stack.csv", "3090", frequency)
+    built: list[str] = []
+    write = BasisStore.write
+    monkeypatch.setattr(BasisStore, "write", lambda *a: (built.append(a[1]), write(*a)))
+    fit_fleet(studies[:1], tmp_path / "out", Inline())
+    first = list(built)
+    fleet = fit_fleet(studies, tmp_path / "out", Inline())
+    assert first and built == first
+    moduli = fleet.table.set_index(["study", "stage"])["lamination.E_pa"]
+    assert moduli["a", "framed"] != moduli["b", "framed"]
 
 
 def test_what_is_done_is_not_done_again(whole: tuple[list[Path], Path]) -> None:

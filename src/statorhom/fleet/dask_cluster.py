@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from asyncio import CancelledError
 from collections.abc import Callable, Generator, Sequence
 from types import ModuleType
 
@@ -37,7 +38,7 @@ class DaskCluster:
         futures = {}
         try:
             futures = {client.submit(function, task, pure=False): i for i, task in enumerate(tasks)}
-            for future in self._distributed.as_completed(futures):
+            for future in self._distributed.as_completed(list(futures), loop=client.loop):
                 yield futures[future], self._result(future)
         finally:
             client.cancel(list(futures))
@@ -76,6 +77,11 @@ class DaskCluster:
             return Lost(
                 f"its workers died, the last one at {error.last_worker.address}; see the worker's log"
             )
+        except CancelledError:
+            raise IdentificationError(
+                f"--scheduler {quoted(self._address)}: it has gone; start it and the batch again, which goes on where "
+                "it was"
+            ) from None
         except ModuleNotFoundError as error:
             raise IdentificationError(
                 one_line(
