@@ -14,7 +14,8 @@ from statorhom.identify.stage_basis import rounded_up
 from statorhom.identify.stage_materials import StageMaterials
 from statorhom.model.affine import Material, Materials
 
-DENSITY_STEP = 1.1  # densities are rounded up to powers of it
+# densities are rounded up to powers of the step in these units: no border lies among those of steel
+DENSITY_STEP, DENSITY_UNIT = 1.1, 1000.0
 REACH = 2.5  # standard deviations of the prior to either side, per coordinate
 
 
@@ -50,7 +51,11 @@ def training_materials(space: ParameterSpace, materials: StageMaterials, count: 
 
 
 def _of_round_densities(materials: Materials) -> Materials:
-    return _with_densities(materials, {r: rounded_up(m.density, DENSITY_STEP) for r, m in materials.items()})
+    rounded = {
+        region: DENSITY_UNIT * rounded_up(m.density / DENSITY_UNIT, DENSITY_STEP)
+        for region, m in materials.items()
+    }
+    return _with_densities(materials, rounded)
 
 
 def _with_densities(materials: Materials, densities: Mapping[str, float]) -> Materials:
