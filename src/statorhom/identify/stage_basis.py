@@ -51,8 +51,11 @@ def reduce_stage(
     """
     box = material_box(training, model.mesh.regions)
     band = rounded_up(BAND * highest_hz, step)
-    tasks = [(model, space, box, band, store) for space in spaces]
-    problems = workers.map(_reduce, tasks, progress=progress)
+    # another process may want the same bases at the same time: in different orders, each finds what the other has built
+    order = np.random.default_rng().permutation(len(spaces))
+    tasks = [(model, spaces[i], box, band, store) for i in order]
+    found = workers.map(_reduce, tasks, progress=progress)
+    problems = [found[place] for place in np.argsort(order)]
     return reduced_stator(model, box, problems, LOOK * highest_hz, typical)
 
 
