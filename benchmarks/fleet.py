@@ -31,7 +31,9 @@ from statorhom.geometry import stator_geometry
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.refinement import Band, MeshSeries
 from statorhom.identify.settings import FITTING_MESH
+from statorhom.materials.symmetry import constant_names
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
+from statorhom.materials.typical import prior_range
 from statorhom.model.affine import AffineModel, Material
 from statorhom.model.free_modes import solve_free
 from statorhom.study.atomic import write_text
@@ -44,7 +46,8 @@ MODES = ((2, 0), (2, 1), (3, 0), (3, 1))
 ORDERS = tuple(sorted({r for r, _ in MODES}))
 HIGHEST_HZ = 8000.0
 # typical constants, and their relative scatter from machine to machine
-TYPICAL = {"E_p_pa": 1.9e11, "E_z_pa": 8e10, "nu_p": 0.29, "nu_pz": 0.28, "G_rz_pa": 3e10}
+SYMMETRY = "transversely_isotropic"
+TYPICAL = {c: prior_range("lamination", "stack", SYMMETRY, c).median for c in constant_names(SYMMETRY)}
 SCATTER = {"E_p_pa": 0.01, "E_z_pa": 0.05, "G_rz_pa": 0.03}
 DENSITY, DENSITY_SCATTER, NOISE = 7700.0, 0.004, 5e-4
 
