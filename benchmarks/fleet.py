@@ -25,7 +25,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from statorhom.fleet import fit_fleet
+from statorhom.fleet.batch import fit_fleet
 from statorhom.fleet.local import LocalProcesses
 from statorhom.geometry import stator_geometry
 from statorhom.identify.optimizers.workers import Workers

@@ -119,7 +119,7 @@ def batch(
     json: Json = False,
 ) -> None:
     """Identify many machines of one geometry, such as a production line, into one table."""
-    from statorhom.fleet import fit_fleet
+    from statorhom.fleet.batch import fit_fleet
     from statorhom.fleet.dask_cluster import DaskCluster
     from statorhom.fleet.local import LocalProcesses
 

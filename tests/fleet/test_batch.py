@@ -16,7 +16,7 @@ import cheap_study
 from cheap_fleet import Inline, modulus_ratios, write_fleet, write_machine
 from cheap_study import coarse, edit
 from statorhom.errors import IdentificationError, ResultsError
-from statorhom.fleet import FleetResults, fit_fleet
+from statorhom.fleet.batch import FleetResults, fit_fleet
 from statorhom.fleet.local import LocalProcesses
 from statorhom.identify.chain import chain
 from statorhom.model.basis_store import BasisStore

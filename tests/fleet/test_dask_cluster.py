@@ -12,7 +12,7 @@ import pytest
 from cheap_fleet import Inline, write_fleet
 from cheap_study import coarse
 from statorhom.errors import IdentificationError, MissingDependencyError
-from statorhom.fleet import fit_fleet
+from statorhom.fleet.batch import fit_fleet
 from statorhom.fleet.dask_cluster import DaskCluster
 from statorhom.fleet.executor import Lost
 
