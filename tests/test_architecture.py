@@ -15,12 +15,23 @@ PIPELINE = ("errors", "study", "geometry", "mesh", "materials", "model", "record
 ALLOWED: dict[str, set[str]] = {part: set(PIPELINE[:i]) for i, part in enumerate(PIPELINE)}
 ALLOWED["results"] = {"errors", "study", "geometry", "mesh"}
 ALLOWED["identify"] = {*PIPELINE, "results"}
+ALLOWED["fleet"] = {*PIPELINE, "results", "identify"}
 ALLOWED["report"] = {*PIPELINE, "results"}
 ALLOWED["simulate"] = {*PIPELINE, "results", "identify"}
 ALLOWED["measure"] = {*PIPELINE, "results", "identify", "report"}
 ALLOWED["api"] = {*PIPELINE, "results", "identify", "report"}
 ALLOWED["command_line"] = {*PIPELINE, "results", "identify", "report"}
-ALLOWED["cli"] = {*PIPELINE, "results", "identify", "report", "simulate", "measure", "api", "command_line"}
+ALLOWED["cli"] = {
+    *PIPELINE,
+    "results",
+    "identify",
+    "report",
+    "fleet",
+    "simulate",
+    "measure",
+    "api",
+    "command_line",
+}
 ALLOWED["__init__"] = {"errors", "api"}
 
 LONGEST_FILE, LONGEST_FUNCTION = 350, 60

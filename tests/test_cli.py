@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -13,8 +14,10 @@ from pathlib import Path
 
 import pytest
 
+from cheap_fleet import Inline, write_fleet
 from cheap_study import coarse, edit, write_study
 from command import statorhom
+from statorhom.fleet.executor import Lost
 from statorhom.identify.stage_run import Announce
 from statorhom.results.files import read_results
 
@@ -43,7 +46,13 @@ def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_run_writes_results_and_report(done: Path) -> None:
     out = done / "out"
-    assert {path.name for path in out.iterdir()} == {"results.json", "report.html", "report.pdf", "shapes"}
+    assert {path.name for path in out.iterdir()} == {
+        "results.json",
+        "report.html",
+        "report.pdf",
+        "shapes",
+        "bases",
+    }
     printed = (done / "run.txt").read_text(encoding="utf-8")
     assert str(out / "report.html") in printed
     # a table row of every constant, in engineers' units
@@ -117,6 +126,82 @@ def test_interruption_keeps_what_is_done(tmp_path: Path, monkeypatch: pytest.Mon
     assert not (out / "report.html").exists()
 
 
+@pytest.fixture
+def fleet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[Path]:
+    """Studies of a fleet; no process is started to fit them."""
+    monkeypatch.setattr("statorhom.fleet.batch.Settings", coarse)
+    monkeypatch.setattr("statorhom.fleet.local.LocalProcesses", lambda _jobs: Inline())
+    return write_fleet(tmp_path / "studies", 2)
+
+
+def test_batch_writes_one_table_of_all_machines(fleet: list[Path], tmp_path: Path) -> None:
+    outcome = statorhom("batch", *fleet, "--out", tmp_path / "out")
+    assert outcome.code == 0
+    assert "lamination.E_pa" in outcome.stdout and "GPa" in outcome.stdout and "2 machines" in outcome.stdout
+    table = tmp_path / "out" / "fleet.csv"
+    assert f"wrote {table}" in outcome.stderr.splitlines()
+    assert [line.split(",")[0] for line in table.read_text().splitlines()] == [
+        "study",
+        "ring-000",
+        "ring-001",
+    ]
+    printed = json.loads(statorhom("batch", *fleet, "--out", tmp_path / "out", "--json").stdout)
+    assert [row["study"] for row in printed] == ["ring-000", "ring-001"]
+
+
+def test_a_batch_that_is_not_whole_ends_with_one_line(fleet: list[Path], tmp_path: Path) -> None:
+    def lost(_self: object, _function: object, tasks: list[object]) -> Iterator[tuple[int, Lost]]:
+        yield from ((i, Lost("its worker died")) for i in range(len(tasks)))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Inline, "run", lost)
+        outcome = statorhom("batch", *fleet, "--out", tmp_path / "out", "--json")
+    assert outcome.code == 2
+    assert [row["state"] for row in json.loads(outcome.stdout)] == ["failed", "failed"]
+    assert len(outcome.stderr.splitlines()) == 1
+    assert '"ring-000" (and 1 more) has no results: its worker died' in outcome.stderr
+
+
+def test_a_faulty_batch_is_refused_in_one_line(fleet: list[Path], tmp_path: Path) -> None:
+    for words in (
+        [],
+        [tmp_path / "gone.toml"],
+        [fleet[0], fleet[0]],
+        [fleet[0], "--scheduler", "ftp://nowhere"],
+    ):
+        outcome = statorhom("batch", *words, "--out", tmp_path / "out")
+        assert outcome.code == 2
+        assert len(outcome.stderr.splitlines()) == 1
+    assert not (tmp_path / "out" / "machines").exists()
+
+
+@pytest.mark.slow
+def test_ctrl_c_ends_a_batch_and_leaves_what_is_done(tmp_path: Path) -> None:
+    studies = write_fleet(tmp_path / "studies", 40)
+    out = tmp_path / "out"
+    process = subprocess.Popen(
+        [*PROGRAM, "batch", *studies, "--out", out, "--jobs", "2"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    try:
+        deadline = time.monotonic() + 300
+        while len(list(out.glob("machines/*/results.json"))) < 3 and time.monotonic() < deadline:
+            time.sleep(0.1)
+        # as a terminal does it: to the workers too
+        os.killpg(process.pid, signal.SIGINT)
+        text, error = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    assert process.returncode == 130
+    assert text == "" and len(error.splitlines()) == 1 and "interrupted" in error
+    states = [line.split(",")[2] for line in (out / "fleet.csv").read_text().splitlines()[1:]]
+    assert len(states) == 40 and set(states) == {"fitted", "open"}
+
+
 @pytest.mark.slow
 def test_ctrl_c_ends_processes_and_program(tmp_path: Path) -> None:
     """The signal itself, at whatever the program is doing: annealing replaces the handler on its way."""
@@ -147,7 +232,7 @@ def test_ctrl_c_ends_processes_and_program(tmp_path: Path) -> None:
 def test_help_names_every_command() -> None:
     outcome = statorhom("--help")
     assert outcome.code == 0
-    for command in ("init", "simulate", "fit", "run", "report"):
+    for command in ("init", "simulate", "fit", "run", "batch", "report"):
         assert command in outcome.stdout
 
 

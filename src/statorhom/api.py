@@ -108,7 +108,7 @@ class Study:
         check_folder(folder)
         recorded = with_recorded_tables(self.files, folder, last, announce)
         settings = Settings(seed=seed, jobs=jobs)
-        return chain(recorded.files, folder, settings, recorded.shapes).run(last, announce)
+        return chain(recorded.files, folder, settings, measured=recorded.shapes).run(last, announce)
 
     def run(
         self,

@@ -1,4 +1,4 @@
-"""The command line: init, simulate, fit, run and report."""
+"""The command line: init, simulate, fit, run, batch and report."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import typer
 
 from statorhom.command_line.exit_codes import guarded
 from statorhom.command_line.progress import progress_bars
-from statorhom.command_line.tables import print_materials, print_measured, print_modes
+from statorhom.command_line.tables import print_fleet, print_materials, print_measured, print_modes
 
 app = typer.Typer(
     name="statorhom",
@@ -121,6 +121,43 @@ def run(
     _show(results.model_dump_json(by_alias=True) if json else None, results)
     if not json:
         typer.echo(f"report: {(out or loaded.default_folder) / 'report.html'}", err=True)
+
+
+@app.command()
+def batch(
+    studies: Annotated[
+        list[Path], typer.Argument(metavar="STUDIES…", help="Study files of machines of one geometry.")
+    ],
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for results.")] = Path(
+        "fleet-results"
+    ),
+    seed: Seed = 1,
+    jobs: Jobs = PROCESSORS,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            "--scheduler",
+            metavar="ADDRESS",
+            help="dask.distributed scheduler whose workers fit, instead of own processes.",
+        ),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Identify many machines of one geometry, such as a production line, into one table."""
+    from statorhom.fleet.batch import fit_fleet
+    from statorhom.fleet.dask_cluster import DaskCluster
+    from statorhom.fleet.local import LocalProcesses
+
+    executor = LocalProcesses(jobs) if scheduler is None else DaskCluster(scheduler)
+    with progress_bars(quiet=json) as announce:
+        fleet = fit_fleet(studies, out, executor, seed=seed, announce=announce)
+    if json:
+        typer.echo(fleet.table.to_json(orient="records"))
+    else:
+        print_fleet(fleet.table, fleet.errors)
+        for path in fleet.files:
+            typer.echo(f"wrote {path}", err=True)
+    fleet.check()
 
 
 @app.command()

@@ -30,6 +30,19 @@ def test_the_same_materials_every_time():
     np.testing.assert_array_equal(one, two)
 
 
+def test_machines_that_differ_by_their_weights_are_trained_on_the_same():
+    def densities(density):
+        known = Parameter.constant("lamination.density_kg_m3", density)
+        parameters = [known if p.name == known.name else p for p in stage.space().parameters]
+        found = training_materials(ParameterSpace(tuple(parameters)), stage.LAMINATION, 8)
+        return {m["lamination"].density for m in found}
+
+    (lighter,), (heavier,) = densities(7650.0), densities(7800.0)
+    assert lighter == heavier
+    # the band of the heavier one has more modes in it
+    assert 7800.0 <= heavier <= 1.1 * 7800.0
+
+
 def test_a_space_without_freedom_has_one_material():
     fixed = ParameterSpace(tuple(Parameter.constant(n, v) for n, v in stage.TRUTH.items()))
     assert len(training_materials(fixed, stage.LAMINATION, 64)) == 1

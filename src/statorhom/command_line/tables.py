@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from rich.console import Console
@@ -62,6 +63,22 @@ def _or(value: object, unknown: str) -> str:
     import pandas as pd
 
     return unknown if pd.isna(value) else str(value)  # type: ignore[call-overload]
+
+
+def print_fleet(table: pd.DataFrame, errors: Mapping[str, str]) -> None:
+    """Median and scatter of every constant over a fleet, step by step, and the machines without results."""
+    console = Console()
+    for stage, rows in table[table["stage"].notna()].groupby("stage", sort=False):
+        console.print(f"[bold]{escape(str(stage))}[/]: {len(rows)} machines")
+        shown = Table("constant", "lowest", "median", "highest", box=None, pad_edge=False)
+        for column in [c.removesuffix(".status") for c in rows.columns if c.endswith(".status")]:
+            values = rows[column].dropna()
+            if len(values):
+                figures = (values.min(), values.median(), values.max())
+                shown.add_row(column, *(_figure(column, figure) for figure in figures))
+        console.print(shown)
+    for machine, error in errors.items():
+        console.print(f"[bold yellow]failed[/]: {escape(machine)}: {escape(error)}")
 
 
 def _stage_line(stage: StageResult) -> str:

@@ -59,6 +59,7 @@ class Chain:
     geometry : of its machine.
     folder : where results go.
     settings : of the run.
+    bases : folder of the reduced bases, which machines may share.
     measured : shapes of the tests that have recordings, by row of their tables.
     """
 
@@ -66,7 +67,32 @@ class Chain:
     geometry: StatorGeometry
     folder: Path
     settings: Settings
+    bases: Path
     measured: Mapping[str, tuple[MeasuredShape, ...]] = field(default_factory=dict)
+
+    def check(self) -> None:
+        """Refuse, before any work, what no step can be identified from.
+
+        Raises
+        ------
+        StatorhomError
+            If a file, a mass or a test does not allow it, or earlier results are damaged or of another study.
+        """
+        self._setups(len(self.files.study.stages) - 1)
+        self._earlier()
+
+    def finished(self) -> Results | None:
+        """What the folder holds already if that is all steps as the inputs stand now, else None.
+
+        Raises
+        ------
+        ResultsError
+            If earlier results are damaged or of another study.
+        """
+        earlier = self._earlier()
+        stages = [earlier.get(self._digest(i)) for i in range(len(self.files.study.stages))]
+        done = tuple(stage for stage in stages if stage is not None)
+        return self._results(done) if len(done) == len(stages) else None
 
     def run(self, last: int | None = None, announce: Announce = silent) -> Results:
         """Identify all steps up to one (default: all) and write results.json after each.
@@ -118,9 +144,7 @@ class Chain:
         analytic = analytic_values(
             self.files, setup, _earlier_densities(self.files, self.geometry, setup.index)
         )
-        run = run_stage(
-            setup, carried, analytic, self.settings, workers, announce, BasisStore(self.folder / "bases")
-        )
+        run = run_stage(setup, carried, analytic, self.settings, workers, announce, BasisStore(self.bases))
         shapes, rows = free_shapes(run)
         result = stage_result(run, state.mass_kg, state.regions, rows)
         progress = announce("supported tests", 1)
@@ -187,9 +211,13 @@ def chain(
     files: StudyFiles,
     folder: Path,
     settings: Settings,
+    bases: Path | None = None,
     measured: Mapping[str, tuple[MeasuredShape, ...]] | None = None,
 ) -> Chain:
-    """A chain of a study's steps; `measured` are the shapes of tests that have recordings.
+    """A chain of a study's steps.
+
+    Its reduced bases stay in `folder` unless `bases` names another place; `measured` are the shapes of the
+    tests that have recordings.
 
     Raises
     ------
@@ -197,7 +225,7 @@ def chain(
         If the machine is impossible.
     """
     geometry = stator_geometry(files.geometry, files.geometry_path)
-    return Chain(files, geometry, folder, settings, measured or {})
+    return Chain(files, geometry, folder, settings, bases or folder / "bases", measured or {})
 
 
 def program_version() -> str:

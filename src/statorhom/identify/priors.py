@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
@@ -108,6 +108,21 @@ def stage_space(
     parameters.append(Parameter(MESH, 0.0, -Z90, Z90, -4.0, 4.0, "linear"))
     blocks = () if carried.block is None else (carried.block,)
     return ParameterSpace(tuple(parameters), tuple(ties), blocks)
+
+
+def common_space(
+    stage: StageKeys,
+    materials: StageMaterials,
+    new: frozenset[str],
+    densities: Mapping[str, RegionDensity],
+    carried: Carried,
+    analytic: Mapping[str, TransverselyIsotropic | None],
+) -> ParameterSpace:
+    """The space of `stage_space` without what is one machine's own: the results of its earlier steps, and what its
+    weights tell of the winding.
+    """
+    of_geometry = {source: value for source, value in analytic.items() if source != "winding"}
+    return stage_space(stage, materials, new, densities, replace(carried, block=None), of_geometry)
 
 
 def _weighed(source: str) -> str:

@@ -21,12 +21,15 @@ class Settings:
     jobs : processes.
     density : mesh that the constants are fitted on.
     refinements : meshes of the convergence study, as factors of the number of cells.
+    shared_bases : whether reduced bases shall serve other machines of the same geometry too. They are larger then,
+        for what earlier steps have told of this machine does not confine them.
     """
 
     seed: int = 1
     jobs: int = 1
     density: MeshDensity = FITTING_MESH
     refinements: tuple[float, ...] = (1.0, 1.5, 2.0)
+    shared_bases: bool = False
 
     def digest_parts(self) -> dict[str, object]:
         """What of it decides the results."""
@@ -36,4 +39,5 @@ class Settings:
             "cells": dict(d.cells),
             "mesh": [d.grading, d.end_grading, d.widest, d.longest, d.factor],
             "refinements": list(self.refinements),
+            "shared_bases": self.shared_bases,
         }

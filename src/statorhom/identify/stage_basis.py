@@ -18,7 +18,7 @@ from statorhom.model.reduced_stator import ReducedStator, reduced_stator
 # it remains there
 BASIS_TOLERANCE = 3e-4
 BAND = 1.1  # the basis is exact up to here, as a part of the highest measured frequency
-STEP = 1.05  # bands are rounded up to powers of it
+STEP, SHARED_STEP = 1.05, 1.2  # bands are rounded up to powers of it, those of a fleet's machines more
 LOOK = 1.5  # modes are computed and paired up to here
 TRAINING = 512  # materials among which the bases pick their snapshots, a power of two
 
@@ -34,6 +34,7 @@ def reduce_stage(
     workers: Workers,
     progress: Progress | None = None,
     store: BasisStore | None = None,
+    step: float = STEP,
 ) -> ReducedStator:
     """Reduced bases of the given harmonic problems, one task each.
 
@@ -46,17 +47,21 @@ def reduce_stage(
     highest_hz : highest measured frequency.
     workers, progress : processes, and what counts the problems that are done.
     store : where bases are kept between runs; None to build them anew.
+    step : the band is rounded up to a power of it.
     """
     box = material_box(training, model.mesh.regions)
-    band = _rounded_up(BAND * highest_hz)
-    tasks = [(model, space, box, band, store) for space in spaces]
-    problems = workers.map(_reduce, tasks, progress=progress)
+    band = rounded_up(BAND * highest_hz, step)
+    # another process may want the same bases at the same time: in different orders, each finds what the other has built
+    order = np.random.default_rng().permutation(len(spaces))
+    tasks = [(model, spaces[i], box, band, store) for i in order]
+    found = workers.map(_reduce, tasks, progress=progress)
+    problems = [found[place] for place in np.argsort(order)]
     return reduced_stator(model, box, problems, LOOK * highest_hz, typical)
 
 
-def _rounded_up(hz: float) -> float:
-    """To a power of `STEP`: machines of one kind share a band."""
-    return float(STEP ** np.ceil(np.log(hz) / np.log(STEP)))
+def rounded_up(value: float, step: float) -> float:
+    """To a power of `step`: machines of one kind share a basis."""
+    return float(step ** np.ceil(np.log(value) / np.log(step)))
 
 
 def _reduce(task: BasisTask, tick: Tick) -> ReducedHarmonic:

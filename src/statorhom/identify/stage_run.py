@@ -11,10 +11,10 @@ from statorhom.identify.basis_check import BasisCheck, check_basis
 from statorhom.identify.model_error import ModelError, model_error
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.polish import Optimum, polish
-from statorhom.identify.priors import Carried, stage_space
+from statorhom.identify.priors import Carried, common_space, stage_space
 from statorhom.identify.refinement import Band, MeshSeries
 from statorhom.identify.settings import Settings
-from statorhom.identify.stage_basis import TRAINING, reduce_stage
+from statorhom.identify.stage_basis import SHARED_STEP, STEP, TRAINING, reduce_stage
 from statorhom.identify.stage_fit import StageFit, fit_stage, search_space
 from statorhom.identify.stage_problem import StageProblem
 from statorhom.identify.stage_setup import StageSetup
@@ -89,16 +89,18 @@ def run_stage(
         )
     series = MeshSeries(setup.step, settings.density, settings.refinements)
     model = series.coarsest
-    space = stage_space(setup.keys, setup.materials, setup.new, setup.densities, carried, analytic)
+    known = (setup.keys, setup.materials, setup.new, setup.densities, carried, analytic)
+    space = stage_space(*known)
     searched = search_space(space)
     typical = setup.materials.of(searched.values(searched.start))
     top = highest_hz(setup.fitted)
     names = mode_names(model, typical, setup.fitted)
     problems = problems_of(model.mesh, names)
-    training = training_materials(space, setup.materials, TRAINING)
-    reduced = reduce_stage(
-        model, training, typical, problems, top, workers, announce("reduced bases", len(problems)), store
-    )
+    spread = common_space(*known) if settings.shared_bases else space
+    training = training_materials(spread, setup.materials, TRAINING)
+    step = SHARED_STEP if settings.shared_bases else STEP
+    progress = announce("reduced bases", len(problems))
+    reduced = reduce_stage(model, training, typical, problems, top, workers, progress, store, step)
     problem = StageProblem(space, setup.materials, reduced, setup.fitted, ModelError())
     fitted_orders = {r for r, _ in names}
     orders = sorted(fitted_orders | {r for r, _ in mode_names(model, typical, setup.free_modes, BAND_MARGIN)})

@@ -10,9 +10,12 @@ from scipy.stats import qmc
 
 from statorhom.errors import MaterialError
 from statorhom.identify.parameters import ParameterSpace
+from statorhom.identify.stage_basis import rounded_up
 from statorhom.identify.stage_materials import StageMaterials
 from statorhom.model.affine import Material, Materials
 
+# densities are rounded up to powers of the step in these units: no border lies among those of steel
+DENSITY_STEP, DENSITY_UNIT = 1.1, 1000.0
 REACH = 2.5  # standard deviations of the prior to either side, per coordinate
 
 
@@ -21,7 +24,8 @@ def training_materials(space: ParameterSpace, materials: StageMaterials, count: 
 
     Draws, not a uniform cover of a box: most of a box in five dimensions is corners that nobody believes in, and
     a basis for them is twice as large. Densities are the same in all, rounded: a basis is right for every density, and
-    machines that differ by their weights alone share one.
+    machines that differ by their weights alone share one. They are rounded up: the heavier, the more modes lie in
+    the band.
 
     Parameters
     ----------
@@ -47,7 +51,11 @@ def training_materials(space: ParameterSpace, materials: StageMaterials, count: 
 
 
 def _of_round_densities(materials: Materials) -> Materials:
-    return _with_densities(materials, {r: float(f"{m.density:.1e}") for r, m in materials.items()})
+    rounded = {
+        region: DENSITY_UNIT * rounded_up(m.density / DENSITY_UNIT, DENSITY_STEP)
+        for region, m in materials.items()
+    }
+    return _with_densities(materials, rounded)
 
 
 def _with_densities(materials: Materials, densities: Mapping[str, float]) -> Materials:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 
 import numpy as np
+
+from statorhom.study.frozen_map import FrozenMap
 
 # cells of the coarsest mesh that represents every mode of a stator's usual band
 COARSEST = {
@@ -67,7 +68,7 @@ class MeshDensity:
     factor: float = 1.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "cells", MappingProxyType(dict(self.cells)))
+        object.__setattr__(self, "cells", FrozenMap(self.cells))
 
     def refined(self, factor: float) -> MeshDensity:
         """The same mesh with every number of cells multiplied by `factor` (rounded, at least as many)."""

@@ -48,7 +48,7 @@ class Workers:
             raise IdentificationError(f"jobs = {jobs}: give at least one")
         self.jobs = jobs
         self._pool: ProcessPoolExecutor | None = None
-        self._context = multiprocessing.get_context(_start_method())
+        self._context = multiprocessing.get_context(start_method())
         self._count: Any = None
         self._stop: Any = None
 
@@ -128,7 +128,8 @@ class Workers:
         return self._pool
 
 
-def _start_method() -> str:
+def start_method() -> str:
+    """How processes begin: afresh, by a server where there is one."""
     return "forkserver" if "forkserver" in multiprocessing.get_all_start_methods() else "spawn"
 
 
