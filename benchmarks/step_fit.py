@@ -90,7 +90,7 @@ def measured(study: Study, jobs: int, ccx_seconds: float) -> dict[str, Any]:
         f"certified {100 * run.basis.certified:.4f} %"
     )
     return {
-        "lamination": run.setup.keys.model.get("lamination"),
+        "lamination": run.setup.keys.model.lamination,
         "searched_constants": run.fit.problem.space.dimension,
         "harmonic_problems": len(run.fit.problem.solver.kinds),
         "cells": len(run.fit.problem.solver.box.training),
