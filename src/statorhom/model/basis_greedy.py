@@ -114,7 +114,9 @@ class _Builder:
     def _full_modes(self, number: int) -> tuple[np.ndarray, np.ndarray]:
         if number not in self.solved:
             K, M = self.terms.matrices(self.training[number])
-            found = modes_below(K, M, self.highest_hz, self.expected, beyond=BEYOND)
+            # the reference's own shifted matrix is factorized already
+            back_end = factorize if number else lambda _: self.solve
+            found = modes_below(K, M, self.highest_hz, self.expected, beyond=BEYOND, back_end=back_end)
             self.expected = len(found[0]) + 2
             self.solved = {number: found}
         return self.solved[number]

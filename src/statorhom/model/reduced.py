@@ -23,7 +23,7 @@ from statorhom.model.material_cells import MaterialCells, material_cells
 from statorhom.model.material_span import MaterialPoint, MaterialSpan, material_point, material_span
 
 RADIUS = 1.0  # of the cells: energies within one differ by about this much in their logarithm
-MOST_CELLS = 24
+MOST_CELLS = 12  # more make an evaluation faster and the bases dearer
 # A cell is trained beyond its border, on materials that lie not much farther from its centre than from their own, and
 # on a few of the nearest in any case: where materials are rare, a cell's own ones do not show what lies between.
 OVERLAP, LEAST = 1.3, 12
