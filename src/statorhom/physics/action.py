@@ -1,0 +1,69 @@
+"""What an effect changes: inputs, materials, the stator's parts, its supports, or what is observed of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.model.affine import Materials
+from statorhom.model.broken.change import Change
+from statorhom.study.supports import SupportKeys
+
+MaterialRule = Callable[[Materials], Materials]
+ChangeRule = Callable[[HalfPitchMesh, Materials], tuple[Change, ...]]
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A contact of finite stiffness where bonding was assumed.
+
+    Parameters
+    ----------
+    regions : that get nodes of their own (`statorhom.model.broken.interface.split`).
+    normal, tangential : stiffness of the contact (N/m³).
+    arc : centre and width (rad) of the part where it is weaker, None for the same all around.
+    ratio : stiffness within the arc over that of the rest.
+    """
+
+    regions: tuple[str, ...]
+    normal: float
+    tangential: float
+    arc: tuple[float, float] | None = None
+    ratio: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Action:
+    """What is different from the declared model; what stays empty is as declared.
+
+    Parameters
+    ----------
+    masses : stage → what the scale would have to say (kg).
+    dimensions : "section.key" of the geometry file → true value in the key's unit.
+    materials : from the declared materials of a stage to the true ones.
+    changes : from mesh and materials to what breaks the symmetry or varies along the axis.
+    joint : a contact in the place of a bond.
+    supports : name of a support → how it really holds.
+    names : (test, label of a measured mode) → its true (r, n).
+    sensor_kg : mass of an accelerometer that roves over the measured points.
+    modulus_at : region → factor of its stiffness at a frequency (Hz).
+    stages, tests : where it is present; None: everywhere.
+    """
+
+    masses: Mapping[str, float] = field(default_factory=dict)
+    dimensions: Mapping[str, float] = field(default_factory=dict)
+    materials: MaterialRule | None = None
+    changes: ChangeRule | None = None
+    joint: Joint | None = None
+    supports: Mapping[str, SupportKeys] = field(default_factory=dict)
+    names: Mapping[tuple[str, str], tuple[int, int]] = field(default_factory=dict)
+    sensor_kg: float = 0.0
+    modulus_at: Mapping[str, Callable[[float], float]] = field(default_factory=dict)
+    stages: frozenset[str] | None = None
+    tests: frozenset[str] | None = None
+
+    def touches(self, stage: str, test: str | None = None) -> bool:
+        """Whether it is present in a stage, and in a test of it."""
+        here = self.stages is None or stage in self.stages
+        return here and (test is None or self.tests is None or test in self.tests)

@@ -1,0 +1,47 @@
+"""What every effect in the library says of itself. A new effect is one new file in `statorhom/physics/effects`."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+from statorhom.physics.action import Action
+from statorhom.physics.candidate import Candidate
+from statorhom.study.study import StudyFiles
+
+
+@dataclass(frozen=True)
+class Confusion:
+    """Another effect that looks alike, and the measurement that tells the two apart."""
+
+    effect: str
+    separated_by: str
+
+
+class Effect(ABC):
+    """A physical effect that a model may lack.
+
+    Class attributes: `name` (formats.md), `summary` (one sentence for the report), `citation`, `confused_with`, and
+    `note`, which says how magnitudes are modelled where that matters.
+    """
+
+    name: ClassVar[str]
+    summary: ClassVar[str]
+    citation: ClassVar[str]
+    confused_with: ClassVar[tuple[Confusion, ...]] = ()
+    note: ClassVar[str | None] = None
+
+    @abstractmethod
+    def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        """All ways in which the effect may be present in a study; none where it is declared or cannot be."""
+
+    @abstractmethod
+    def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
+        """What it changes at values of its parameters (by name, in their units)."""
+
+    def reported(self, candidate: Candidate, values: Mapping[str, float]) -> dict[str, float | str]:
+        """Parameters as diagnosis.json names them: by default all that are no places, and the choices."""
+        found: dict[str, float | str] = {p.name: values[p.name] for p in candidate.magnitudes}
+        return found | dict(candidate.choice)

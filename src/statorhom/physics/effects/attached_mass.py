@@ -1,0 +1,64 @@
+"""A lump on the back of the core that is not in the model, and was not on the scale."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.model.affine import Materials
+from statorhom.model.broken.attachments import footed_lump
+from statorhom.model.broken.change import Change
+from statorhom.physics.action import Action
+from statorhom.physics.candidate import Candidate
+from statorhom.physics.effect import Confusion, Effect
+from statorhom.physics.parameter import EffectParameter, angle, height
+from statorhom.study.study import StudyFiles
+
+FOOT_M = (
+    0.012  # of a lump whose shape nobody knows: terminal boxes, lugs and weights are a centimetre or two wide
+)
+HEIGHT_M = 0.008  # of its centre of gravity above the surface
+LARGEST = 0.2  # of the stage's mass
+
+
+class AttachedMass(Effect):
+    name = "attached_mass"
+    summary = "a lump on the back of the core is not in the model"
+    citation = "Fox (1990), J. Sound Vib. 142, 227; Soedel (2004), Vibrations of Shells and Plates, ch. 13"
+    confused_with = (
+        Confusion(
+            "local_stiffness", "the antinode of the lower mode lies at a mass, of the upper at a stiffness"
+        ),
+        Confusion("ovality", "several orders r split"),
+    )
+    note = "a rigid cube on a 12 mm foot, centre of gravity 8 mm above the surface, not on the scale"
+
+    def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        length = files.geometry.core.length_mm / 1e3
+        found = []
+        for stage in files.study.stages:
+            if not stage.tests:
+                continue
+            m = stage.mass_kg
+            mass = EffectParameter(
+                "mass_kg", 0.003 * m, 0.05 * m, 1e-4 * m, LARGEST * m, "log", (0.01 * m,), None
+            )
+            # foot and all on the surface
+            place = height(length)
+            found.append(Candidate(self.name, stage.name, (mass, angle(), place), "lamination"))
+        return tuple(found)
+
+    def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
+        length = files.geometry.core.length_mm / 1e3
+        foot = min(FOOT_M, 0.5 * length)
+        z = min(max(values["z_m"], 0.51 * foot), length - 0.51 * foot)
+
+        def changes(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
+            del materials
+            lump = footed_lump(mesh, values["angle_rad"], z, values["mass_kg"], foot=foot, height=HEIGHT_M)
+            return (lump,)
+
+        return Action(changes=changes, stages=frozenset({candidate.stage}))
+
+
+EFFECT = AttachedMass()

@@ -1,0 +1,49 @@
+"""An axial strip of the back of the core is stiffer or softer: a weld, a notch, a keyway."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.model.affine import Materials
+from statorhom.model.broken.change import Change
+from statorhom.model.broken.variations import region_stiffness, strip
+from statorhom.physics.action import Action
+from statorhom.physics.candidate import Candidate
+from statorhom.physics.effect import Confusion, Effect
+from statorhom.physics.parameter import EffectParameter, angle
+from statorhom.study.study import StudyFiles
+
+WIDTH_RAD = 0.1745  # 10°
+DEPTH_SHARE = 0.5  # of the yoke
+RATIO = EffectParameter("stiffness_ratio", 0.3, 2.5, 0.02, 12.0, "log", (0.6, 1.6), 1.0)
+
+
+class LocalStiffness(Effect):
+    name = "local_stiffness"
+    summary = "an axial strip of the back of the core is stiffer or softer: a weld, notch, keyway or cut-out"
+    citation = "Fox (1990), J. Sound Vib. 142, 227; Perrin (1971), Acustica 25, 69"
+    confused_with = (
+        Confusion(
+            "attached_mass", "the antinode of the upper mode lies at the strip; the split grows with order"
+        ),
+        Confusion("ovality", "several orders r split"),
+    )
+    note = "modulus of an axial strip of the yoke, 10° wide and half the yoke deep, over that of the core"
+
+    def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        stages = [stage.name for stage in files.study.stages if stage.tests]
+        return tuple(Candidate(self.name, name, (RATIO, angle()), "lamination") for name in stages[:1])
+
+    def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
+        depth = DEPTH_SHARE * files.geometry.core.yoke_thickness_mm / 1e3
+
+        def changes(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
+            core = region_stiffness(mesh, materials, ("lamination",))
+            ratio, place = values["stiffness_ratio"], values["angle_rad"]
+            return (strip(mesh, core, place, width=WIDTH_RAD, depth=depth, ratio=ratio),)
+
+        return Action(changes=changes)
+
+
+EFFECT = LocalStiffness()

@@ -1,0 +1,59 @@
+"""The yoke's stiffness varies around the stator as one cosine."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.model.affine import Materials
+from statorhom.model.broken.change import Change
+from statorhom.model.broken.variations import region_stiffness, wave
+from statorhom.physics.action import Action
+from statorhom.physics.candidate import Candidate
+from statorhom.physics.effect import Confusion, Effect
+from statorhom.physics.parameter import EffectParameter, angle
+from statorhom.study.study import StudyFiles
+
+# a ring splits order r by the harmonic 2 r alone; odd ones split nothing
+HARMONICS = (2, 4, 6, 8)
+AMPLITUDE = EffectParameter("relative_amplitude", 0.003, 0.05, 1e-4, 0.3, "log", (0.01,), None)
+
+
+class Ovality(Effect):
+    name = "ovality"
+    summary = "the yoke's stiffness or thickness varies around the stator as cos n(θ − α)"
+    citation = (
+        "Charnley and Perrin (1973), Acustica 28; Hwang, Fox and McWilliam (1999), J. Sound Vib. 220, 497"
+    )
+    confused_with = (
+        Confusion("attached_mass", "one order r alone splits"),
+        Confusion("local_stiffness", "one order r alone splits"),
+    )
+    note = "of the yoke's stiffness, its mass unchanged; the angle is a maximum of stiffness"
+
+    def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        stages = [stage.name for stage in files.study.stages if stage.tests]
+        return tuple(
+            Candidate(
+                self.name, name, (AMPLITUDE, angle(2 * np.pi / n)), "lamination", choice=(("harmonic", n),)
+            )
+            for name in stages[:1]
+            for n in HARMONICS
+        )
+
+    def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
+        core = files.geometry.core
+        inner = (core.outer_diameter_mm / 2 - core.yoke_thickness_mm) / 1e3
+        harmonic = int(candidate.chosen["harmonic"])
+
+        def changes(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
+            yoke = region_stiffness(mesh, materials, ("lamination",))
+            size, place = values["relative_amplitude"], values["angle_rad"]
+            return (wave(mesh, yoke, place, harmonic=harmonic, amplitude=size, inner=inner),)
+
+        return Action(changes=changes)
+
+
+EFFECT = Ovality()

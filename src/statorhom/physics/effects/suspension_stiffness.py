@@ -1,0 +1,54 @@
+"""A test that is declared free hangs on something stiff."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.model.affine import Materials
+from statorhom.model.broken.attachments import point_springs
+from statorhom.model.broken.change import Change
+from statorhom.physics.action import Action
+from statorhom.physics.candidate import Candidate
+from statorhom.physics.effect import Confusion, Effect
+from statorhom.physics.parameter import EffectParameter, angle
+from statorhom.study.study import StudyFiles
+from statorhom.study.study_file import FREE
+
+STIFFNESS = EffectParameter("stiffness_n_per_m", 3e4, 3e7, 1e3, 1e9, "log", (1e6,), None)
+
+
+class SuspensionStiffness(Effect):
+    name = "suspension_stiffness"
+    summary = "a test that is declared free hangs on something stiff"
+    citation = "Carne, Griffith and Casias (2007), Proc. IMAC 25"
+    confused_with = (
+        Confusion("temperature_shift", "the shift falls with the frequency squared"),
+        Confusion("local_stiffness", "the split falls with the frequency squared"),
+    )
+    note = "two radial springs on one axial line of the back of the core, near its ends; stiffness of both together"
+
+    def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        return tuple(
+            Candidate(self.name, stage.name, (STIFFNESS, angle()), None, test.name)
+            for stage in files.study.stages
+            for test in stage.tests
+            if test.support == FREE
+        )
+
+    def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
+        length = files.geometry.core.length_mm / 1e3
+
+        def changes(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
+            del materials
+            each = np.array([0.5 * values["stiffness_n_per_m"], 0.0, 0.0])
+            angles = np.full(2, values["angle_rad"])
+            return (point_springs(mesh, angles, np.array([0.1, 0.9]) * length, each),)
+
+        stages, tests = frozenset({candidate.stage}), frozenset({str(candidate.test)})
+        return Action(changes=changes, stages=stages, tests=tests)
+
+
+EFFECT = SuspensionStiffness()

@@ -1,0 +1,79 @@
+"""A number in the study or geometry file contradicts the recordings."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from statorhom.physics.action import Action
+from statorhom.physics.candidate import Candidate
+from statorhom.physics.effect import Confusion, Effect
+from statorhom.physics.parameter import EffectParameter
+from statorhom.study.study import StudyFiles
+
+# keys of the geometry file by section, and the step from which on they matter
+DIMENSIONS = {
+    "core": ("outer_diameter_mm", "bore_diameter_mm", "length_mm", "yoke_thickness_mm"),
+    "slots": ("tooth_width_mm", "slot_width_mm"),
+    "winding": ("overhang_length_mm",),
+    "frame": ("outer_diameter_mm", "length_mm"),
+}
+FIRST_STEP = {"winding": ("wound", "impregnated"), "frame": ("framed",)}
+SPREAD = 1.3  # a wrong number is off by up to this factor nine times out of ten
+
+
+class WrongInput(Effect):
+    name = "wrong_input"
+    summary = "a mass or a dimension in the files contradicts the recordings"
+    citation = "Mottershead and Friswell (1993), J. Sound Vib. 167, 347"
+    confused_with = (
+        Confusion("temperature_shift", "weighing and measuring again"),
+        Confusion("loose_winding_mass", "weighing again"),
+    )
+
+    def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        masses = [
+            _candidate(stage.name, "mass_kg", stage.mass_kg, (("input", "mass_kg"),))
+            for stage in files.study.stages
+        ]
+        return (*masses, *_dimensions(files))
+
+    def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
+        key = candidate.chosen
+        if key["input"] == "mass_kg":
+            return Action(masses={candidate.stage: values["value"]})
+        return Action(dimensions={f"{key['section']}.{key['input']}": values["value"]})
+
+    def reported(self, candidate: Candidate, values: Mapping[str, float]) -> dict[str, float | str]:
+        return {"input": str(candidate.chosen["input"]), "value": values["value"]}
+
+
+def _dimensions(files: StudyFiles) -> list[Candidate]:
+    found = []
+    for section, keys in DIMENSIONS.items():
+        table = getattr(files.geometry, section)
+        kinds = FIRST_STEP.get(section)
+        stage = next((s for s in files.study.stages if s.tests and (kinds is None or s.kind in kinds)), None)
+        for key in keys if table is not None and stage is not None else ():
+            typed = getattr(table, key, None)
+            if typed is not None and stage is not None:
+                choice = (("input", key), ("section", section))
+                found.append(_candidate(stage.name, key, typed, choice))
+    return found
+
+
+def _candidate(stage: str, key: str, typed: float, choice: tuple[tuple[str, str | int], ...]) -> Candidate:
+    del key
+    value = EffectParameter(
+        "value",
+        typed / SPREAD,
+        typed * SPREAD,
+        typed / 3,
+        typed * 3,
+        "log",
+        (0.98 * typed, 1.02 * typed),
+        typed,
+    )
+    return Candidate("wrong_input", stage, (value,), choice=choice)
+
+
+EFFECT = WrongInput()

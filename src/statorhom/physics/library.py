@@ -1,0 +1,37 @@
+"""The library of effects: every module of `statorhom.physics.effects` that has an `EFFECT`."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from functools import cache
+
+from statorhom.physics import effects
+from statorhom.physics.candidate import Candidate
+from statorhom.physics.effect import Effect
+from statorhom.study.study import StudyFiles
+
+
+@cache
+def library() -> dict[str, Effect]:
+    """All effects by name.
+
+    Raises
+    ------
+    ValueError
+        If two files claim the same name.
+    """
+    found: dict[str, Effect] = {}
+    for module in sorted(pkgutil.iter_modules(effects.__path__), key=lambda m: m.name):
+        effect = getattr(importlib.import_module(f"{effects.__name__}.{module.name}"), "EFFECT", None)
+        if not isinstance(effect, Effect):
+            continue
+        if effect.name in found:
+            raise ValueError(f"two effects are named {effect.name!r}")
+        found[effect.name] = effect
+    return found
+
+
+def all_candidates(files: StudyFiles) -> tuple[Candidate, ...]:
+    """Everything that the library can say of a study."""
+    return tuple(candidate for effect in library().values() for candidate in effect.candidates(files))
