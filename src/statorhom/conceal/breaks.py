@@ -1,0 +1,220 @@
+"""What breaks a true stator's symmetry, before there is a mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.model.affine import Material, Materials
+from statorhom.model.broken.attachments import footed_lump, point_springs
+from statorhom.model.broken.cells import Sectors, cells
+from statorhom.model.broken.change import Attachment, Change, PieceChange
+from statorhom.model.broken.interface import Contact
+from statorhom.model.broken.pieces import Pieces, elements_in
+from statorhom.model.broken.variations import arc, gradient, strip, wave
+from statorhom.model.surface import surface_points
+
+
+class Ground(Protocol):
+    """The symmetric stator that something breaks."""
+
+    @property
+    def mesh(self) -> HalfPitchMesh:
+        """Of the half pitch."""
+        ...
+
+    @property
+    def materials(self) -> Materials:
+        """Of all regions."""
+        ...
+
+    @property
+    def contact(self) -> Contact | None:
+        """Joint that is not rigid."""
+        ...
+
+    def pieces(self, region: str, material: Material | None = None) -> Pieces:
+        """Stiffness of a region's elements; with a material, what changing to it adds."""
+        ...
+
+    def masses(self, region: str) -> Pieces:
+        """Mass of a region's elements."""
+        ...
+
+
+class Break(Protocol):
+    """Something that breaks the symmetry."""
+
+    def changes(self, ground: Ground) -> tuple[Change, ...]:
+        """On a mesh."""
+        ...
+
+
+@dataclass(frozen=True)
+class Wave:
+    """Stiffness of the lamination outside a radius times 1 + ε cos n(θ − α)."""
+
+    harmonic: int
+    amplitude: float
+    angle: float
+    inner: float = 0.0
+
+    def changes(self, ground: Ground) -> tuple[Change, ...]:
+        """On a mesh."""
+        pieces = ground.pieces("lamination")
+        return (
+            wave(
+                ground.mesh,
+                pieces,
+                self.angle,
+                harmonic=self.harmonic,
+                amplitude=self.amplitude,
+                inner=self.inner,
+            ),
+        )
+
+
+@dataclass(frozen=True)
+class Lump:
+    """A rigid cube on the back of the core."""
+
+    angle: float
+    z: float
+    mass_kg: float
+    foot: float
+    height: float
+
+    def changes(self, ground: Ground) -> tuple[Change, ...]:
+        """On a mesh."""
+        return (
+            footed_lump(ground.mesh, self.angle, self.z, self.mass_kg, foot=self.foot, height=self.height),
+        )
+
+
+@dataclass(frozen=True)
+class Strip:
+    """An axial strip of the back of the core of another modulus."""
+
+    angle: float
+    width: float
+    depth: float
+    ratio: float
+
+    def changes(self, ground: Ground) -> tuple[Change, ...]:
+        """On a mesh."""
+        pieces = ground.pieces("lamination")
+        return (strip(ground.mesh, pieces, self.angle, width=self.width, depth=self.depth, ratio=self.ratio),)
+
+
+@dataclass(frozen=True)
+class Cords:
+    """Springs to the ground at points of the surface; stiffness (radial, tangential, axial) of each (N/m)."""
+
+    angles: tuple[float, ...]
+    z: tuple[float, ...]
+    stiffness: tuple[float, float, float]
+
+    def changes(self, ground: Ground) -> tuple[Change, ...]:
+        """On a mesh."""
+        return (
+            point_springs(ground.mesh, np.array(self.angles), np.array(self.z), np.array(self.stiffness)),
+        )
+
+
+@dataclass(frozen=True)
+class AxialSlope:
+    """The lamination's material changes linearly from the middle of the core towards the materials of its ends."""
+
+    upper: Material
+    lower: Material
+
+    def changes(self, ground: Ground) -> tuple[Change, ...]:
+        """On a mesh."""
+        length = ground.mesh.length
+        found = []
+        for end, sign in ((self.upper, 1.0), (self.lower, -1.0)):
+            along = _ramp(length, sign)
+            found.append(gradient(ground.mesh, ground.pieces("lamination", end), ("lamination",), along))
+        return tuple(found)
+
+
+def _ramp(length: float, sign: float) -> Callable[[np.ndarray], np.ndarray]:
+    return lambda z: np.maximum(sign * (2 * z / length - 1), 0.0)
+
+
+@dataclass(frozen=True)
+class LostContact:
+    """A joint whose stiffness keeps a ratio between two angles (rad)."""
+
+    start: float
+    end: float
+    ratio: float
+
+    def changes(self, ground: Ground) -> tuple[Change, ...]:
+        """On a mesh."""
+        joint = ground.contact
+        assert joint is not None, "the effect gives its stage a contact"
+        return (arc(joint.pieces, Sectors(joint.angle, ground.mesh.slots), self.start, self.end, self.ratio),)
+
+
+@dataclass(frozen=True, eq=False)
+class Patchwork:
+    """Stiffness and mass of the lamination differ from pitch to pitch, as where its thickness does.
+
+    Parameters
+    ----------
+    factors : (N,) relative surplus of every slot pitch.
+    """
+
+    factors: np.ndarray
+
+    def changes(self, ground: Ground) -> tuple[Change, ...]:
+        """On a mesh."""
+        pieces, masses = ground.pieces("lamination"), ground.masses("lamination")
+        copies = np.repeat(np.resize(self.factors, ground.mesh.slots), 2)
+        weights = np.tile(copies, (len(pieces), 1))
+        return (PieceChange(pieces, masses, weights),)
+
+
+@dataclass(frozen=True)
+class Helix:
+    """Stiffness of the lamination times 1 + ε cos(n(θ − α) − κ z/L), as of skewed welds."""
+
+    harmonic: int
+    amplitude: float
+    angle: float
+    twist: float
+
+    def changes(self, ground: Ground) -> tuple[Change, ...]:
+        """On a mesh."""
+        place = cells(ground.mesh, elements_in(ground.mesh, ("lamination",)))
+        middle = place.angles.mean(axis=-1)
+        phase = self.twist * place.z.mean(axis=1)[:, None] / ground.mesh.length
+        weights = self.amplitude * np.cos(self.harmonic * (middle - self.angle) - phase)
+        return (PieceChange(ground.pieces("lamination"), None, weights),)
+
+
+@dataclass(frozen=True)
+class Tether:
+    """A rod from the surface to the ground that is stiff along one slanted direction only.
+
+    Parameters
+    ----------
+    direction : (radial, tangential, axial).
+    stiffness : along it (N/m).
+    """
+
+    angle: float
+    z: float
+    direction: tuple[float, float, float]
+    stiffness: float
+
+    def changes(self, ground: Ground) -> tuple[Change, ...]:
+        """On a mesh."""
+        points = surface_points(ground.mesh, np.array([self.angle]), np.array([self.z]))
+        row = np.array([self.direction]) / np.linalg.norm(self.direction)
+        return (Attachment(points, row, np.array([[self.stiffness]]), np.zeros((1, 1))),)

@@ -1,0 +1,115 @@
+"""Make a study with a concealed effect."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from statorhom.conceal.detectability import detectability
+from statorhom.conceal.folder import check_empty, write_folder
+from statorhom.conceal.ground import TRUTH_MESH
+from statorhom.conceal.library import hidden_effect
+from statorhom.conceal.measure_case import measure_case
+from statorhom.conceal.place_effect import with_effect
+from statorhom.conceal.start import start_case
+from statorhom.conceal.truth import Case
+from statorhom.conceal.truth_file import truth_text
+from statorhom.mesh import MeshDensity
+from statorhom.study.geometry_file import read_geometry
+from statorhom.study.study_file import StudyFile, read_study_file
+
+
+@dataclass(frozen=True)
+class Wish:
+    """An effect to conceal.
+
+    Parameters
+    ----------
+    effect : its name; "none" for nothing.
+    given : values of its parameters.
+    strength : 0 … 1; None: drawn.
+    stage, test : where; None: the first place that it fits.
+    """
+
+    effect: str
+    given: Mapping[str, float] = field(default_factory=dict)
+    strength: float | None = None
+    stage: str | None = None
+    test: str | None = None
+
+
+def conceal_study(
+    path: Path,
+    wishes: Sequence[Wish],
+    out: Path | None = None,
+    *,
+    seed: int = 1,
+    tables: bool | None = None,
+    wide: bool = False,
+    highest_order: int | None = None,
+    verdict: str | None = None,
+    density: MeshDensity = TRUTH_MESH,
+) -> tuple[Path, Case]:
+    """Write a study whose recordings hide effects.
+
+    Parameters
+    ----------
+    path : a study; its geometry, steps, weights' uncertainty, declared materials, supports and tests are taken, its
+        data are not.
+    wishes : what to conceal.
+    out : an empty or missing folder; None: beside the study.
+    seed : equal seeds give equal files.
+    tables : write modal tables (True) or FRFs (False) for all tests; None: as the study has them.
+    wide : draw the true constants from all that is typical, far from where a fit starts.
+    highest_order : modes of higher orders are missing in tables.
+    verdict : the right one where the data do not suffice for the best one ("ambiguous").
+    density : of the true stator's mesh.
+
+    Returns
+    -------
+    study, case : path of the new study, and what is true.
+
+    Raises
+    ------
+    StatorhomError
+        Where the study, its geometry, the effect or the folder do not allow it.
+    """
+    study = read_study_file(path)
+    folder = path.parent / f"{study.name}-concealed" if out is None else out
+    check_empty(folder)
+    geometry = read_geometry(path.parent / study.geometry)
+    rng = np.random.default_rng(seed)
+    case = start_case(path, _with_neutral_name(study, folder), geometry, rng, tables=tables, wide=wide)
+    if highest_order is not None:
+        case = _limited(case, highest_order)
+    for wish in wishes:
+        effect = hidden_effect(wish.effect)
+        if effect is not None:
+            case = with_effect(
+                case,
+                effect,
+                rng,
+                given=wish.given,
+                strength=wish.strength,
+                stage=wish.stage,
+                test=wish.test,
+            )
+    case, tests = measure_case(case, rng, density)
+    found = detectability(case, tests, density)
+    text = truth_text(folder.name, case, tests, found, verdict or case.verdict)
+    return write_folder(folder, case, tests, text), case
+
+
+def _with_neutral_name(study: StudyFile, folder: Path) -> StudyFile:
+    """What the study was called may tell too much."""
+    return study.model_copy(update={"name": folder.name[:60]})
+
+
+def _limited(case: Case, highest_order: int) -> Case:
+    for s, stage in enumerate(case.stages):
+        for t in range(len(stage.tests)):
+            case = case.with_test(s, t, highest_order=highest_order)
+    return case

@@ -1,0 +1,1 @@
+"""What can be concealed, one file each."""
