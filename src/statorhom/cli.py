@@ -161,6 +161,44 @@ def batch(
 
 
 @app.command()
+def conceal(
+    study: StudyPath,
+    effect: Annotated[
+        list[str],
+        typer.Option("--effect", metavar="NAME", help='What to conceal, "none" for nothing; once or twice.'),
+    ],
+    out: Out = None,
+    given: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="NAME=VALUE", help="A parameter instead of drawing it; EFFECT.NAME of two."),
+    ] = None,
+    strength: Annotated[
+        float | None,
+        typer.Option("--strength", min=0.0, max=1.0, help="From hardly felt to strong [default: drawn]."),
+    ] = None,
+    stage: Annotated[str | None, typer.Option("--stage", metavar="NAME", help="The step it is in.")] = None,
+    test: Annotated[str | None, typer.Option("--test", metavar="NAME", help="The test it is in.")] = None,
+    tables: Annotated[
+        bool | None,
+        typer.Option(
+            "--tables/--frfs", show_default=False, help="Kind of recordings [default: as the study's tests]."
+        ),
+    ] = None,
+    wide: Annotated[
+        bool, typer.Option("--wide", help="True materials from all that is typical, not a well-made stator's.")
+    ] = False,
+    seed: Seed = 1,
+) -> None:
+    """Make a study whose recordings conceal an effect; the truth lies in DIR/sealed/truth.json."""
+    from statorhom.conceal.conceal_study import conceal_study
+    from statorhom.conceal.wishes import wishes_from
+
+    wishes = wishes_from(effect, given or [], strength, stage, test)
+    path, _ = conceal_study(study, wishes, out, seed=seed, tables=tables, wide=wide)
+    typer.echo(f"wrote {path}")
+
+
+@app.command()
 def report(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="A folder with results.json.")],
 ) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -218,3 +218,22 @@ class Tether:
         points = surface_points(ground.mesh, np.array([self.angle]), np.array([self.z]))
         row = np.array([self.direction]) / np.linalg.norm(self.direction)
         return (Attachment(points, row, np.array([[self.stiffness]]), np.zeros((1, 1))),)
+
+
+def joined(changes: Sequence[Change]) -> list[Change]:
+    """The same changes, those of the same pieces as one: each costs a projection onto the whole basis."""
+    found: list[Change] = []
+    for change in changes:
+        twin = next((i for i, other in enumerate(found) if _same_pieces(other, change)), None)
+        if twin is None:
+            found.append(change)
+        else:
+            other = found[twin]
+            assert isinstance(other, PieceChange) and isinstance(change, PieceChange)
+            found[twin] = PieceChange(other.stiffness, None, other.weights + change.weights)
+    return found
+
+
+def _same_pieces(one: Change, other: Change) -> bool:
+    both = isinstance(one, PieceChange) and isinstance(other, PieceChange)
+    return bool(both and one.stiffness is other.stiffness and one.mass is None and other.mass is None)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -43,6 +43,7 @@ class StageGround:
     contact: Contact | None
     elliptic_hz: float
     highest_hz: float
+    _own: dict[str, Pieces] = field(default_factory=dict, init=False, repr=False)
 
     @property
     def mesh(self) -> HalfPitchMesh:
@@ -57,9 +58,14 @@ class StageGround:
 
     def pieces(self, region: str, material: Material | None = None) -> Pieces:
         """Stiffness of a region's elements; with a material, what changing to it adds."""
+        if material is None and region in self._own:
+            return self._own[region]
         own = hooke_coefficients(self.materials[region].hooke)
         wanted = own if material is None else hooke_coefficients(material.hooke) - own
-        return stiffness_pieces(self.mesh, {region: wanted})
+        found = stiffness_pieces(self.mesh, {region: wanted})
+        if material is None:
+            self._own[region] = found
+        return found
 
     def masses(self, region: str) -> Pieces:
         """Mass of a region's elements."""

@@ -9,6 +9,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from statorhom.conceal import frfs
+from statorhom.conceal.breaks import joined
 from statorhom.conceal.ground import TRUTH_MESH, StageGround, stage_ground
 from statorhom.conceal.listed import ListedMode, listed_modes
 from statorhom.conceal.ritz import Losses, RitzModes, ritz_modes
@@ -18,7 +19,7 @@ from statorhom.conceal.truth import Case, Finding, TrueStage, TrueTest
 from statorhom.errors import SupportError
 from statorhom.mesh import MeshDensity
 from statorhom.model.broken.attachments import springs
-from statorhom.model.broken.change import Change
+from statorhom.model.broken.change import Change, PieceChange
 from statorhom.model.supports import support_on
 from statorhom.model.surface import surface_radius
 from statorhom.recordings.frf_set import FrfSet
@@ -90,7 +91,7 @@ def _stage(
     for index, test in enumerate(stage.tests):
         own = ground.with_factors(test.stiffness_factor) if test.stiffness_factor else ground
         ritz = _solved(own, stage, test, None if test.is_table else places)
-        measured = Measured(number, index, ritz, listed_modes(ritz))
+        measured = Measured(number, index, ritz, listed_modes(ritz, is_free=test.declared is None))
         if test.is_table:
             yield _table(measured, test, rng)
         else:
@@ -105,6 +106,7 @@ def _solved(ground: StageGround, stage: TrueStage, test: TrueTest, places: Senso
     lossy: dict[int, float] = {}
     for broken in (*stage.breaks, *test.breaks):
         changes += broken.changes(ground)
+    changes = joined(changes)
     if test.elastic is not None:
         lossy[len(changes)] = test.elastic.loss_factor
         changes.append(springs(ground.mesh, support_on(ground.mesh, test.elastic.lines).points))
@@ -113,7 +115,9 @@ def _solved(ground: StageGround, stage: TrueStage, test: TrueTest, places: Senso
     if places is not None:
         changes.append(places.faint_springs(ground.mesh))
     losses = Losses({region: stage.materials[region].loss_factor for region in ground.mesh.regions}, lossy)
-    return ritz_modes(ground, changes, losses, stage.absorbers, stage.modulus_slope)
+    waves = joined([change for wave in stage.scatter for change in wave.changes(ground)])
+    weak = [change for change in waves if isinstance(change, PieceChange)]
+    return ritz_modes(ground, changes, weak, losses, stage.absorbers, stage.modulus_slope)
 
 
 def _as_declared(ground: StageGround, keys: SupportKeys) -> Change:

@@ -10,8 +10,9 @@ from scipy.linalg import eigh
 
 from statorhom.conceal.ground import StageGround
 from statorhom.conceal.truth import Absorber
-from statorhom.model.broken.change import Attachment, Change
+from statorhom.model.broken.change import Attachment, Change, PieceChange
 from statorhom.model.broken.coupling import piece_matrices
+from statorhom.model.broken.grams import project
 from statorhom.model.broken.pieces import Pieces
 from statorhom.model.broken.solve import BrokenModes, solve_broken
 from statorhom.model.eigen import frequency_hz
@@ -19,7 +20,7 @@ from statorhom.model.stator_mode import RIGID_HZ
 from statorhom.model.supported_shapes import SupportedModes
 from statorhom.model.surface import SurfacePoints, surface_points
 
-TOLERANCE = 5e-4  # of the frequencies against the mesh's own
+TOLERANCE = 1e-3  # of the frequencies against the mesh's own
 DEPENDENT = 1e-9  # part of a coordinate's mass below which it repeats others
 REFERENCE_HZ = 1000.0  # where a modulus that varies with frequency has its declared value
 LEAST = 0.05  # of the modulus stays
@@ -83,6 +84,7 @@ class RitzModes:
 def ritz_modes(
     ground: StageGround,
     changes: Sequence[Change],
+    weak: Sequence[PieceChange],
     losses: Losses,
     absorbers: Sequence[Absorber] = (),
     slopes: Mapping[str, float] | None = None,
@@ -92,7 +94,9 @@ def ritz_modes(
     Parameters
     ----------
     ground : of the stage.
-    changes : all that breaks the symmetry.
+    changes : what breaks the symmetry.
+    weak : what hardly does, by parts in a thousand of the stiffness: felt by the symmetric modes that the solution is
+        made of, not by the local fields of springs and lumps.
     losses : of regions and attachments.
     absorbers : on the surface.
     slopes : region → relative change of its modulus per decade of frequency.
@@ -103,7 +107,12 @@ def ritz_modes(
         If the changes are too strong for the basis.
     """
     solved = solve_broken(ground.basis, changes, TOLERANCE)
-    K, M = _with_absorbers(ground, solved, absorbers)
+    K = solved.coupled.K.copy()
+    size, basis = len(solved.basis.values), solved.basis
+    for change in weak:
+        assert change.stiffness is not None, "scatter is one of stiffness"
+        K[:size, :size] += project(basis.grams, change.stiffness, change.weights, basis.waves, basis.waves)
+    K, M = _with_absorbers(ground, solved, K, absorbers)
     size = len(solved.coupled.K)
     if slopes:
         values, x = _frequency_dependent(ground, solved, (K, M), slopes)
@@ -128,10 +137,10 @@ def _all_pairs(K: np.ndarray, M: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _with_absorbers(
-    ground: StageGround, solved: BrokenModes, absorbers: Sequence[Absorber]
+    ground: StageGround, solved: BrokenModes, K: np.ndarray, absorbers: Sequence[Absorber]
 ) -> tuple[np.ndarray, np.ndarray]:
     """K and M with one coordinate more for every absorber: the radial motion of its mass."""
-    K, M = solved.coupled.K, solved.coupled.M
+    M = solved.coupled.M
     size = len(K)
     unit = replace(solved, eigenvalues=np.ones(size), coordinates=np.eye(size), errors=np.zeros(size))
     for absorber in absorbers:

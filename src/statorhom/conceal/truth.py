@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from statorhom.conceal.breaks import Break
+from statorhom.conceal.breaks import Break, Wave
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.materials.symmetry import SYMMETRIES
 from statorhom.model.affine import Material
@@ -130,19 +130,21 @@ class TrueStage:
     kinds : of all steps up to this one.
     materials : of every region of the model.
     scale_kg : what is on the scale.
+    scatter : what is never quite alike around a stator.
+    tests : that were made.
     breaks : what breaks the symmetry in all tests.
     contact : joint that is not rigid.
     absorbers : on the surface.
     modulus_slope : region → a in E(f) = E(1 kHz)(1 + a log₁₀(f/1 kHz)).
-    tests : that were made.
     """
 
     keys: StageKeys
     kinds: tuple[str, ...]
     materials: Mapping[str, TrueMaterial]
     scale_kg: float
-    breaks: tuple[Break, ...]
+    scatter: tuple[Wave, ...]
     tests: tuple[TrueTest, ...]
+    breaks: tuple[Break, ...] = ()
     contact: ContactLaw | None = None
     absorbers: tuple[Absorber, ...] = ()
     modulus_slope: Mapping[str, float] = field(default_factory=dict)

@@ -6,10 +6,9 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from statorhom.conceal.breaks import Wave
 from statorhom.conceal.listed import resolved
 from statorhom.conceal.measure_case import Measured
-from statorhom.conceal.scatter import COUNT, scatter_json
+from statorhom.conceal.scatter import scatter_json
 from statorhom.conceal.truth import Case, TrueMaterial
 
 
@@ -25,7 +24,6 @@ def truth_text(
     detectability : see `statorhom.conceal.detectability`.
     verdict : the right one.
     """
-    waves = [b for b in case.stages[0].breaks[:COUNT] if isinstance(b, Wave)]
     content = {
         "schema": 1,
         "case": name,
@@ -35,7 +33,7 @@ def truth_text(
         "modes": [mode for test in tests for mode in _modes(case, test)],
         "masses": _masses(case),
         "detectability": dict(detectability),
-        "scatter": scatter_json(tuple(waves)),
+        "scatter": scatter_json(case.stages[0].scatter),
         "tables": {_name(case, t): _table(t) for t in tests if t.table is not None},
         "meshes": [{"test": _name(case, t), "dof": t.ritz.ground.mesh.full_dof} for t in tests],
     }

@@ -1,0 +1,111 @@
+"""Making and diagnosing the cases: a folder per case, what is done stays done, two interruptions change nothing.
+
+WORK/templates/…, WORK/cases/NAME (what a diagnosis sees), WORK/truth/NAME.json, WORK/runs/NAME/diagnosis.json and
+WORK/runs/NAME/run.json (seconds, exit code, message).
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from blind_cases import BlindCase
+from blind_machines import write_template
+
+from statorhom.conceal.conceal_study import Wish, conceal_study
+from statorhom.conceal.folder import TRUTH
+from statorhom.errors import StatorhomError
+from statorhom.study.atomic import write_text
+
+PATIENCE_S = 1800.0  # a diagnosis that takes longer counts as failed
+
+
+@dataclass(frozen=True)
+class Work:
+    """Folder of one benchmark."""
+
+    folder: Path
+
+    def case(self, case: BlindCase) -> Path:
+        """What the diagnosis sees."""
+        return self.folder / "cases" / case.name
+
+    def truth(self, case: BlindCase) -> Path:
+        """What it does not."""
+        return self.folder / "truth" / f"{case.name}.json"
+
+    def run(self, case: BlindCase) -> Path:
+        """What it says."""
+        return self.folder / "runs" / case.name
+
+
+def make(work: Work, case: BlindCase) -> str | None:
+    """Make a case unless it is there; what went wrong, or None."""
+    folder, truth = work.case(case), work.truth(case)
+    if truth.exists():
+        return None
+    shutil.rmtree(folder, ignore_errors=True)
+    template = write_template(
+        work.folder / "templates" / case.name, case.template, case.machine, case.number
+    )
+    wishes = [Wish(name, strength=case.strength) for name in case.effects]
+    try:
+        conceal_study(
+            template,
+            wishes,
+            folder,
+            seed=case.number,
+            tables=case.tables,
+            wide=case.wide,
+            highest_order=case.highest_order,
+            verdict="ambiguous" if case.group == "ambiguous" else None,
+        )
+    except StatorhomError as error:
+        return f"{case.name}: {error}"
+    content = json.loads((folder / TRUTH).read_text(encoding="utf-8"))
+    shutil.rmtree(folder / TRUTH.parent)
+    write_text(truth, json.dumps(content | {"blind": asdict(case)}, indent=1) + "\n")
+    return None
+
+
+def diagnose(work: Work, case: BlindCase) -> str | None:
+    """Diagnose a case unless that is done; what went wrong, or None."""
+    folder = work.run(case)
+    if (folder / "run.json").exists() or not work.truth(case).exists():
+        return None
+    command = [sys.executable, "-m", "statorhom", "diagnose", str(work.case(case) / "study.toml")]
+    begin = time.perf_counter()
+    try:
+        done = subprocess.run(
+            [*command, "--out", str(folder), "--jobs", "1"], capture_output=True, text=True, timeout=PATIENCE_S
+        )
+        code, message = done.returncode, done.stderr.strip().splitlines()[-1:]
+    except subprocess.TimeoutExpired:
+        code, message = -1, [f"no answer within {PATIENCE_S:g} s"]
+    seconds = time.perf_counter() - begin
+    state = {"seconds": seconds, "exit_code": code, "message": message[0] if code and message else ""}
+    write_text(folder / "run.json", json.dumps(state) + "\n")
+    return None if code == 0 else f"{case.name}: {state['message']}"
+
+
+def each(
+    what: str, function: Callable[[Work, BlindCase], str | None], work: Work, cases: Sequence[BlindCase], jobs: int
+) -> None:
+    """Do something with all cases, some at a time."""
+    with ThreadPoolExecutor(jobs) as pool:
+        for number, fault in enumerate(pool.map(lambda case: function(work, case), cases), start=1):
+            print(f"{what} {number}/{len(cases)}", f": {fault}" if fault else "", flush=True)
+
+
+def make_in_process(folder: str, number: int, count: int | None) -> str | None:
+    """`make` for a process of its own."""
+    from blind_cases import blind_cases
+
+    return make(Work(Path(folder)), blind_cases(count)[number])
