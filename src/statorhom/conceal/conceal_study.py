@@ -10,7 +10,6 @@ import numpy as np
 
 from statorhom.conceal.detectability import detectability
 from statorhom.conceal.folder import check_empty, write_folder
-from statorhom.conceal.ground import TRUTH_MESH
 from statorhom.conceal.library import hidden_effect
 from statorhom.conceal.measure_case import measure_case
 from statorhom.conceal.place_effect import with_effect
@@ -51,7 +50,7 @@ def conceal_study(
     wide: bool = False,
     highest_order: int | None = None,
     verdict: str | None = None,
-    density: MeshDensity = TRUTH_MESH,
+    density: MeshDensity | None = None,
 ) -> tuple[Path, Case]:
     """Write a study whose recordings hide effects.
 
@@ -66,7 +65,7 @@ def conceal_study(
     wide : draw the true constants from all that is typical, far from where a fit starts.
     highest_order : modes of higher orders are missing in tables.
     verdict : the right one where the data do not suffice for the best one ("ambiguous").
-    density : of the true stator's mesh.
+    density : of the true stator's mesh; None: what is usual of the step.
 
     Returns
     -------

@@ -19,7 +19,9 @@ from statorhom.model.broken.pieces import Pieces, mass_pieces, stiffness_pieces
 from statorhom.model.free_modes import FreeProblem, problem_at
 
 # every division of the section that the fit leaves at one cell has two here, graded towards the tooth roots
-TRUTH_MESH = graded()
+STACK_MESH = graded()
+# with a winding in the slots the corners are less sharp, and the mesh is twice as long
+WOUND_MESH = graded(slot=1)
 # band over the lowest frequency of order 2: eight names (r, n) of a stack, some doublets of a winding's dense modes
 STACK_REACH, WOUND_REACH = 5.2, 3.2
 MARGIN = 1.4  # how far above the band the symmetric modes reach that carry the broken ones
@@ -80,15 +82,20 @@ class StageGround:
         return replace(self, materials=changed)
 
 
+def truth_mesh(kinds: tuple[str, ...]) -> MeshDensity:
+    """The mesh of a true stator after some steps."""
+    return STACK_MESH if kinds == ("stack",) else WOUND_MESH
+
+
 def stage_ground(
-    geometry: StatorGeometry, stage: TrueStage, density: MeshDensity = TRUTH_MESH, reach: float | None = None
+    geometry: StatorGeometry, stage: TrueStage, density: MeshDensity | None = None, reach: float | None = None
 ) -> StageGround:
     """Mesh a stage and give it its materials.
 
     Parameters
     ----------
     geometry, stage : the true ones.
-    density : of the mesh.
+    density : of the mesh; None: what is usual of the step.
     reach : upper end of the band over the lowest frequency of order 2; None: what is usual of the step.
 
     Raises
@@ -96,7 +103,7 @@ def stage_ground(
     StatorhomError
         If the geometry does not allow the step.
     """
-    mesh = mesh_step(geometry.step(stage.kinds), density)
+    mesh = mesh_step(geometry.step(stage.kinds), density or truth_mesh(stage.kinds))
     joint = None
     if stage.contact is not None:
         law = stage.contact

@@ -10,7 +10,7 @@ from threadpoolctl import threadpool_limits
 
 from statorhom.conceal import frfs
 from statorhom.conceal.breaks import joined
-from statorhom.conceal.ground import TRUTH_MESH, StageGround, stage_ground
+from statorhom.conceal.ground import StageGround, stage_ground
 from statorhom.conceal.listed import ListedMode, listed_modes
 from statorhom.conceal.ritz import Losses, RitzModes, ritz_modes
 from statorhom.conceal.sensors import Sensors, sensors
@@ -53,7 +53,7 @@ class Measured:
 
 
 def measure_case(
-    case: Case, rng: np.random.Generator, density: MeshDensity = TRUTH_MESH
+    case: Case, rng: np.random.Generator, density: MeshDensity | None = None
 ) -> tuple[Case, tuple[Measured, ...]]:
     """Measure all tests.
 
@@ -61,7 +61,7 @@ def measure_case(
     ----------
     case : the truth.
     rng : of noise, positions and what is missing.
-    density : of the true stator's mesh.
+    density : of the true stator's mesh; None: what is usual of the step.
 
     Returns
     -------
@@ -82,7 +82,7 @@ def measure_case(
 
 
 def _stage(
-    case: Case, number: int, stage: TrueStage, rng: np.random.Generator, density: MeshDensity
+    case: Case, number: int, stage: TrueStage, rng: np.random.Generator, density: MeshDensity | None
 ) -> Iterator[Measured]:
     ground = stage_ground(case.geometry, stage, density)
     d = case.geometry.dimensions
@@ -109,7 +109,7 @@ def _solved(ground: StageGround, stage: TrueStage, test: TrueTest, places: Senso
     changes = joined(changes)
     if test.elastic is not None:
         lossy[len(changes)] = test.elastic.loss_factor
-        changes.append(springs(ground.mesh, support_on(ground.mesh, test.elastic.lines).points))
+        changes.append(_springs(ground, test.elastic.lines))
     elif test.declared is not None:
         changes.append(_as_declared(ground, test.declared))
     if places is not None:
@@ -126,9 +126,16 @@ def _as_declared(ground: StageGround, keys: SupportKeys) -> Change:
         raise SupportError(
             f"support {keys.name!r}: faces and arcs cannot be concealed yet; give the tests line supports"
         )
-    if keys.declared == "rigid":
-        stiff = {"declared": "elastic", "normal_stiffness_n_per_m2": PRESS_N_PER_M2, "tangential_ratio": 1.0}
-        keys = keys.model_copy(update=stiff)
+    return pressed(ground, keys) if keys.declared == "rigid" else _springs(ground, keys)
+
+
+def pressed(ground: StageGround, keys: LineSupport) -> Change:
+    """Lines as stiff as a press."""
+    stiff = {"declared": "elastic", "normal_stiffness_n_per_m2": PRESS_N_PER_M2, "tangential_ratio": 1.0}
+    return _springs(ground, keys.model_copy(update=stiff))
+
+
+def _springs(ground: StageGround, keys: LineSupport) -> Change:
     return springs(ground.mesh, support_on(ground.mesh, keys).points)
 
 

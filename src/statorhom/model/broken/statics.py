@@ -52,11 +52,15 @@ class Statics:
     @cached_property
     def products(self) -> np.ndarray:
         """WᵀMY, (coordinates, a)."""
+        if len(self) == 0:
+            return np.zeros((len(self.basis.values), 0))  # the surface's responses would be solved for nothing
         return self._stacked(lambda p: p.surface_products[0])
 
     @cached_property
     def probed(self) -> tuple[np.ndarray, np.ndarray]:
         """ζᵀLᵀ and ζᵀMY of the probes, (probes, a) each."""
+        if len(self) == 0:
+            return np.zeros((len(self.basis.probes), 0)), np.zeros((len(self.basis.probes), 0))
         return self._stacked(lambda p: p.probes[p.sector.loaded].T), self._stacked(
             lambda p: p.surface_products[1]
         )
