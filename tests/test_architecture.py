@@ -27,6 +27,7 @@ ALLOWED: dict[str, set[str]] = {part: set(PIPELINE[:i]) for i, part in enumerate
 ALLOWED["results"] = {"errors", "study", "geometry", "mesh"}
 ALLOWED["identify"] = {*PIPELINE, "results"}
 ALLOWED["diagnose"] = {*PIPELINE, "results", "identify"}
+ALLOWED["conceal"] = set(PIPELINE)
 ALLOWED["fleet"] = {*PIPELINE, "results", "identify"}
 ALLOWED["report"] = {*PIPELINE, "results"}
 ALLOWED["simulate"] = {*PIPELINE, "results", "identify"}
@@ -39,6 +40,7 @@ ALLOWED["cli"] = {
     "identify",
     "report",
     "diagnose",
+    "conceal",
     "fleet",
     "simulate",
     "measure",

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from statorhom.conceal.truth import Slip
 
-ROUNDS = 200
-RELAXATION = 0.5
-CLOSE = 1e-8
+SCAN, REACH = 120, 1e4  # amplitudes that are tried, up to so many times the limit of sticking
+ROUNDS = 40
 
 
 def jenkins(amplitude: np.ndarray, stiffness: np.ndarray, slip: np.ndarray) -> np.ndarray:
@@ -45,13 +46,34 @@ def slipping_curves(
     rest = stiffness[:, None] - carried
     with np.errstate(divide="ignore", invalid="ignore"):
         limit = np.where(carried > 0, slip.force_n * np.abs(contact[:, None]) / carried, np.inf)
-    force = np.abs(forces)[:, None]
-    own = np.broadcast_to(carried.astype(complex), (len(stiffness), len(squared)))
+    force = np.broadcast_to(np.abs(forces)[:, None], (len(stiffness), len(squared)))
+
+    def stiff(amplitude: np.ndarray) -> np.ndarray:
+        slipping = amplitude > limit
+        return np.asarray(np.where(slipping, jenkins(amplitude, carried, np.minimum(limit, amplitude)), carried))
+
+    def excess(amplitude: np.ndarray) -> np.ndarray:
+        return np.asarray(amplitude * np.abs(rest + stiff(amplitude) - squared) - force)
+
+    stuck = force / np.abs(stiffness[:, None] - squared)
+    amplitude = np.where(stuck <= limit, stuck, _first_root(excess, limit, stuck))
+    return np.asarray(1 / (rest + stiff(amplitude) - squared))
+
+
+def _first_root(
+    excess: Callable[[np.ndarray], np.ndarray], limit: np.ndarray, stuck: np.ndarray
+) -> np.ndarray:
+    """Smallest amplitude beyond the limit of sticking at which the forces balance: that of a force that grows."""
+    finite = np.where(np.isfinite(limit), limit, stuck)
+    low, high = np.broadcast_to(finite, stuck.shape).copy(), np.full(stuck.shape, np.nan)
+    for factor in np.geomspace(1.0, REACH, SCAN)[1:]:
+        trial = finite * factor
+        above = np.isnan(high) & (excess(trial) >= 0)
+        high = np.where(above, trial, high)
+        low = np.where(np.isnan(high), trial, low)
+    high = np.where(np.isnan(high), low, high)
     for _ in range(ROUNDS):
-        amplitude = force / np.abs(rest + own - squared)
-        new = np.where(np.isfinite(limit), jenkins(amplitude, carried, limit), carried)
-        step = np.abs(new - own).max(initial=0.0)
-        own = own + RELAXATION * (new - own)
-        if step <= CLOSE * np.abs(carried).max(initial=0.0):
-            break
-    return np.asarray(1 / (rest + own - squared))
+        middle = 0.5 * (low + high)
+        over = excess(middle) >= 0
+        high, low = np.where(over, middle, high), np.where(over, low, middle)
+    return 0.5 * (low + high)
