@@ -77,11 +77,10 @@ def _with_step(
 ) -> tuple[StudyModel, np.ndarray]:
     """One more step: its constants from the best of many starts."""
     places = _new_constants(study.constants, setup)
-    shell = StudyModel(study.files, study.geometry, study.constants, study.stages)
     trials = _trials(z, places, settings.seed)
-    snapshots = _materials(shell, setup, trials)[:SNAPSHOTS]
+    snapshots = _materials(study, setup, trials)[:SNAPSHOTS]
     stage = stage_model(setup, tests, snapshots, settings.density)
-    study = shell.with_stages((*shell.stages, stage))
+    study = study.with_stages((*study.stages, stage))
     # constants of earlier steps stay while new ones are sought
     found = _best(study, trials)
     for number in range(ROUNDS):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,10 +27,6 @@ class Response:
 
     shift: float
     split: complex
-
-    def turned(self, order: int, angle: float) -> Response:
-        """Of the same cause further round by an angle (rad)."""
-        return Response(self.shift, self.split * np.exp(2j * order * angle))
 
 
 def responses(stage: StageModel, changes: Sequence[Change]) -> dict[ModeKey, Response]:
@@ -63,13 +59,3 @@ def _response(modes: BrokenModes, place: Columns) -> Response | None:
     mean = float(values.mean())
     split = complex(effective[0, 0] - effective[1, 1], 2 * effective[0, 1]) / mean
     return Response(0.5 * float(np.log(mean / place.eigenvalue)), split)
-
-
-def merged(parts: Sequence[Mapping[ModeKey, Response]]) -> dict[ModeKey, Response]:
-    """Small responses to several causes add up."""
-    total: dict[ModeKey, Response] = {}
-    for part in parts:
-        for key, response in part.items():
-            before = total.get(key, Response(0.0, 0j))
-            total[key] = Response(before.shift + response.shift, before.split + response.split)
-    return total

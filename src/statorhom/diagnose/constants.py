@@ -5,8 +5,10 @@ Every coordinate measures the deviation from its prior median in prior standard 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -42,13 +44,9 @@ class Constant:
 
     def value(self, internal: float) -> float:
         """In its own unit."""
-        if self.log:
-            return float(np.clip(self.median * np.exp(self.sd * internal), self.lower, self.upper))
-        return float(np.clip(self.median + self.sd * internal, self.lower, self.upper))
-
-    def slope(self, internal: float) -> float:
-        """Derivative of the value with respect to the coordinate."""
-        return self.sd * (self.value(internal) if self.log else 1.0)
+        step = self.sd * internal
+        value = self.median * math.exp(step) if self.log else self.median + step
+        return min(max(value, self.lower), self.upper)
 
     @property
     def limits(self) -> tuple[float, float]:
@@ -76,14 +74,10 @@ class Constants:
     def __len__(self) -> int:
         return len(self.items)
 
-    @property
+    @cached_property
     def names(self) -> tuple[str, ...]:
         """Of the coordinates."""
         return tuple(c.name for c in self.items)
-
-    def place(self, name: str) -> int:
-        """Number of a coordinate."""
-        return self.names.index(name)
 
     def values(self, x: FloatArray) -> dict[str, float]:
         """Values by name."""

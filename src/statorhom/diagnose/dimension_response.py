@@ -85,9 +85,7 @@ def _shifts(study: StudyModel, stage: StageModel, name: str, log_change: float) 
     masses = {s.name: s.mass_kg for s in study.files.study.stages}
     volumes = step.exact_volumes()
     density = stage_densities(study.files, masses, stage.setup.index, volumes)
-    before = stage_densities(
-        study.files, masses, stage.setup.index, stage.setup.step.exact_volumes() if stage.setup.step else {}
-    )
+    before = stage_densities(study.files, masses, stage.setup.index, study.volumes(stage.setup))
     materials = {}
     for region, material in stage.reference.items():
         weighed = "winding" if region == "overhang" else region

@@ -17,11 +17,11 @@ from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
 
 COARSE = 0.03
-PER_EFFECT, CANDIDATES = 3, 3  # starts of one candidate, candidates of one effect
+STARTS = 2  # of one candidate
 WORTH = 2.0  # gain of the scan below which an effect is not refitted
-MOST = 12  # effects that are refitted
+MOST = 12  # candidates that are refitted
 RELABELLED = 6
-IMPOSSIBLE = 1e30
+POOR = 3.0  # squared residual per feature above which another valley is looked for
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,16 +69,11 @@ def single_effects(
     discrete : candidates without parameters.
     counts : effect → number of its candidates, over which its prior is spread.
     """
-    effects = list(dict.fromkeys(s.candidate.effect for s in found.signatures))
-    gains = {e: next(s.gain for s in found.signatures if s.candidate.effect == e) for e in effects}
     explanations = []
-    for effect in sorted(effects, key=lambda e: -gains[e])[:MOST]:
-        for signature in found.best_of(effect, CANDIDATES):
-            if signature.gain < WORTH:
-                continue
-            best = _best_refit(base, _starts_of(found, signature))
-            if best is not None:
-                explanations.append(_explanation(best, counts))
+    for signature in found.worth_refitting(MOST, WORTH):
+        best = _best_refit(base, _starts_of(found, signature))
+        if best is not None:
+            explanations.append(_explanation(best, counts))
     for candidate in worth_trying(base, discrete)[:RELABELLED]:
         best = _best_refit(base, [(candidate, np.empty(0))])
         if best is not None:
@@ -111,17 +106,22 @@ def _starts_of(found: Scan, signature: Signature) -> list[tuple[Candidate, np.nd
     for one in own:
         if all(abs(float(one.change @ other.change)) < 0.9 for other in chosen):
             chosen.append(one)
-    return [(s.candidate, s.start) for s in chosen[:PER_EFFECT]]
+    return [(s.candidate, s.start) for s in chosen[:STARTS]]
 
 
 def _best_refit(base: Refit, places: Sequence[tuple[Candidate, np.ndarray]]) -> Refit | None:
-    found = []
+    found: list[Refit] = []
     for candidate, start in places:
         z = np.r_[base.z, start]
         hypothesis = Hypothesis(base.hypothesis.study, (candidate,), base.hypothesis.left_out)
-        # a wide valley first: pairing may change on the way
-        rough = _refitted(replace(hypothesis, discrepancy=COARSE), z)
-        found += [r for r in (_refitted(hypothesis, p) for p in (z, *([rough.z] if rough else []))) if r]
+        best = _refitted(hypothesis, z)
+        if best is None or best.misfit > POOR * len(best.jacobian):
+            # a wide valley first: partners may change on the way
+            rough = _refitted(replace(hypothesis, discrepancy=COARSE), z)
+            sharp = None if rough is None else _refitted(hypothesis, rough.z)
+            best = min((r for r in (best, sharp) if r), key=lambda r: r.objective, default=None)
+        if best is not None:
+            found.append(best)
     return min(found, key=lambda r: r.objective, default=None)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -11,7 +11,11 @@ import numpy.typing as npt
 
 from statorhom.diagnose.dimension_response import changed_geometry, step_of
 from statorhom.diagnose.features import Feature, Keys, assigned, free_features, missed_cost, shift_features
-from statorhom.diagnose.masses import LAMINATION_DENSITY, LAMINATION_DENSITY_SD, stage_densities
+from statorhom.diagnose.masses import (
+    LAMINATION_DENSITY,
+    LAMINATION_DENSITY_SD,
+    stage_densities,
+)
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode, acted_materials, material_vector, predicted
 from statorhom.diagnose.stage_model import StageModel
@@ -81,6 +85,11 @@ class Hypothesis:
             for c, v in zip(self.candidates, values, strict=True)
         )
 
+    def mark(self, z: FloatArray) -> tuple[tuple[str, tuple[float, ...]], ...]:
+        """What the actions depend on."""
+        values = self.effect_values(z)
+        return tuple((c.label, tuple(v.values())) for c, v in zip(self.candidates, values, strict=True))
+
     def limits(self) -> tuple[FloatArray, FloatArray]:
         """Of the coordinates; angles have none."""
         low, high = self.study.constants.limits
@@ -111,7 +120,7 @@ class Hypothesis:
         for stage in self.study.stages:
             for test in stage.tests:
                 if test.support == FREE:
-                    found = predicted(self.study, stage, values, actions, test.name)
+                    found = predicted(self.study, stage, values, actions, test.name, self.mark(z))
                     held[test.name] = assigned(test, self.modes(test, actions), found)
                     missed += missed_cost(test, held[test.name], found)
         return replace(self, held=held, missed=missed)
@@ -156,12 +165,17 @@ class Hypothesis:
         return found, told
 
     def _partners(
-        self, stage: StageModel, test: MeasuredTest, values: Mapping[str, float], actions: Sequence[Action]
+        self,
+        stage: StageModel,
+        test: MeasuredTest,
+        values: Mapping[str, float],
+        actions: Sequence[Action],
+        mark: Hashable,
     ) -> dict[ModeKey, PredictedMode]:
         """Predicted modes that have a measured partner."""
         assert self.held is not None
         held = self.held[test.name]
-        found = predicted(self.study, stage, values, actions, test.name)
+        found = predicted(self.study, stage, values, actions, test.name, mark)
         return {key: mode for key, mode in found.items() if key in held}
 
     def _free(
@@ -194,12 +208,11 @@ class Hypothesis:
             corrected |= dict(action.masses)
             dimensions |= dict(action.dimensions)
         stage = self.study.stages[0]
-        step = stage.setup.step
+        volumes = self.study.volumes(stage.setup)
         if dimensions:
-            step = step_of(self.study, stage, changed_geometry(self.study, dimensions))
-        assert step is not None
+            volumes = step_of(self.study, stage, changed_geometry(self.study, dimensions)).exact_volumes()
         masses = self.study.masses(values, corrected)
-        density = stage_densities(self.study.files, masses, stage.setup.index, step.exact_volumes())
+        density = stage_densities(self.study.files, masses, stage.setup.index, volumes)
         if "lamination" not in density:
             return []
         rho = density["lamination"]

@@ -11,9 +11,9 @@ from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.errors import StatorhomError
 
 FloatArray = npt.NDArray[np.float64]
-ROUNDS = 3  # of pairing anew
+ROUNDS = 2  # of pairing anew
 ITERATIONS = 12
-SETTLED = 0.02  # decrease of the objective that no longer matters
+SETTLED = 0.05  # decrease of the objective that no longer matters
 LARGEST_STEP = 2.0  # in prior standard deviations
 
 

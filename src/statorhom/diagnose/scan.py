@@ -55,13 +55,16 @@ class Scan:
     signatures: tuple[Signature, ...]
     p_value: float
 
-    def best_of(self, effect: str, count: int) -> tuple[Signature, ...]:
-        """The best signatures of an effect, one per candidate."""
-        found: dict[str, Signature] = {}
+    def worth_refitting(self, most: int, least_gain: float) -> tuple[Signature, ...]:
+        """The best signature of every candidate that gains enough; every effect's best one comes first."""
+        best: dict[str, Signature] = {}
         for signature in self.signatures:
-            if signature.candidate.effect == effect:
-                found.setdefault(signature.candidate.label, signature)
-        return tuple(found.values())[:count]
+            if signature.gain >= least_gain:
+                best.setdefault(signature.candidate.label, signature)
+        leaders = {s.candidate.effect: s.candidate.label for s in reversed(list(best.values()))}
+        first = [s for label, s in best.items() if label in leaders.values()]
+        rest = [s for label, s in best.items() if label not in leaders.values()]
+        return tuple([*first, *rest][: max(most, len(first))])
 
 
 def scan(base: Refit, candidates: Sequence[Candidate], seed: int) -> Scan:

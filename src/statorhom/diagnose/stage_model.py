@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -17,12 +18,13 @@ from statorhom.mesh.extrude import mesh_step
 from statorhom.model.affine import AffineModel, Materials, assemble
 from statorhom.model.broken.basis import SymmetricBasis, symmetric_basis
 from statorhom.model.convergence import ModeKey, converge, mode_keys
-from statorhom.model.free_modes import problem_at
+from statorhom.model.free_modes import FreeModes, problem_at
 from statorhom.model.radial_profile import radial_profile
 from statorhom.model.stator_mode import StatorMode
 
 BAND = 1.12  # predictions reach this much higher than the highest measured mode
 BROKEN_MARGIN = 1.25
+MOST = 6  # modes of a harmonic problem on it
 FINER = 1.5  # second mesh of the extrapolation
 
 
@@ -56,6 +58,7 @@ class StageModel:
     error: ModelError
     density: MeshDensity
     _last: dict[bytes, RingModes] = field(default_factory=dict, repr=False)
+    kept_responses: dict[Hashable, Any] = field(default_factory=dict, repr=False)
     _slopes: dict[int, dict[ModeKey, np.ndarray]] = field(default_factory=dict, repr=False)
 
     @property
@@ -121,12 +124,6 @@ class StageModel:
                 known[key] = np.concatenate([np.r_[gradient[r][0], gradient[r][1]] for r in materials])
         return {key: known[key] for key in keys if key in known}
 
-    def at(self, materials: Materials) -> StageModel:
-        """With another reference: its modes join the basis, its mesh factors are computed."""
-        ring = self.ring.extended([materials])
-        error = mesh_error(self.setup, ring, materials, self.density)
-        return StageModel(self.setup, self.tests, ring, materials, error, self.density)
-
 
 def stage_model(
     setup: StageSetup, tests: Sequence[MeasuredTest], snapshots: Sequence[Materials], density: MeshDensity
@@ -145,10 +142,10 @@ def mesh_error(setup: StageSetup, ring: RingBasis, materials: Materials, density
     """Mesh factors from two meshes at given materials."""
     assert setup.step is not None
     finer = assemble(mesh_step(setup.step, density.refined(FINER)))
-    orders = sorted({p.space.order for p in ring.problems})
-    tables = [problem_at(model, materials).solve(ring.highest_hz, orders) for model in (ring.model, finer)]
-    dofs = [model.mesh.full_dof for model in (ring.model, finer)]
-    found = converge([1.0, 1 / FINER], dofs, tables)
+    orders = sorted({m.order for t in setup.tests for m in t.modes if m.order} or {2, 3, 4})
+    fine = problem_at(finer, materials).solve(ring.highest_hz, orders, MOST)
+    coarse = FreeModes(ring.solve(materials).modes, (), (), ())
+    found = converge([1.0, 1 / FINER], [ring.model.mesh.full_dof, finer.mesh.full_dof], [coarse, fine])
     return ModelError(
         factors={c.key: c.factor for c in found}, corrections={c.key: c.factor - 1.0 for c in found}
     )
@@ -156,7 +153,14 @@ def mesh_error(setup: StageSetup, ring: RingBasis, materials: Materials, density
 
 def with_reference(stage: StageModel, materials: Materials) -> StageModel:
     """The stage at another reference, its mesh factors kept."""
-    return replace(stage, ring=stage.ring.extended([materials]), reference=materials, _last={}, _slopes={})
+    return replace(
+        stage,
+        ring=stage.ring.extended([materials]),
+        reference=materials,
+        _last={},
+        _slopes={},
+        kept_responses={},
+    )
 
 
 def _place(ring: RingBasis, basis: SymmetricBasis, mode: StatorMode) -> Columns | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -36,6 +36,7 @@ class StudyModel:
     geometry: StatorGeometry
     constants: Constants
     stages: tuple[StageModel, ...]
+    _volumes: dict[int, Mapping[str, float]] = field(default_factory=dict, repr=False)
 
     def masses(self, values: Mapping[str, float], corrected: Mapping[str, float]) -> dict[str, float]:
         """Stage → weight, corrected where an effect says so."""
@@ -59,12 +60,18 @@ class StudyModel:
     ) -> Materials:
         """The same before the stage has a model."""
         index = setup.index
-        assert setup.step is not None
-        density = stage_densities(self.files, masses, index, setup.step.exact_volumes())
+        density = stage_densities(self.files, masses, index, self.volumes(setup))
         own = self.constants.stage_values(values, index)
         sources = {region.source for region in setup.materials.regions}
         weighed = {s: density["winding" if s == "overhang" else s] for s in sources}
         return setup.materials.of(own | {f"{s}.{DENSITY}": rho for s, rho in weighed.items()})
+
+    def volumes(self, setup: StageSetup) -> Mapping[str, float]:
+        """Volumes of a step's regions (m³), computed once."""
+        if setup.index not in self._volumes:
+            assert setup.step is not None
+            self._volumes[setup.index] = setup.step.exact_volumes()
+        return self._volumes[setup.index]
 
     def with_stages(self, stages: tuple[StageModel, ...]) -> StudyModel:
         """The same with other stages."""
