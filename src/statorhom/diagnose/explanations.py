@@ -20,7 +20,8 @@ COARSE = 0.03
 STARTS = 2  # of one candidate
 WORTH = 2.0  # gain of the scan below which an effect is not refitted
 MOST = 12  # candidates that are refitted
-RELABELLED = 6
+RELABELLED = 4
+ADEQUATE = 0.01  # chance of a misfit above which nothing is left to explain
 POOR = 3.0  # squared residual per feature above which another valley is looked for
 
 
@@ -69,16 +70,21 @@ def single_effects(
     discrete : candidates without parameters.
     counts : effect → number of its candidates, over which its prior is spread.
     """
-    explanations = []
+    explanations: list[Explanation] = []
     for signature in found.worth_refitting(MOST, WORTH):
-        best = _best_refit(base, _starts_of(found, signature))
+        best = _best_refit(base, _starts_of(found, signature), _solved(explanations))
         if best is not None:
             explanations.append(_explanation(best, counts))
     for candidate in worth_trying(base, discrete)[:RELABELLED]:
-        best = _best_refit(base, [(candidate, np.empty(0))])
+        best = _best_refit(base, [(candidate, np.empty(0))], _solved(explanations))
         if best is not None:
             explanations.append(_explanation(best, counts))
     return sorted(explanations, key=lambda e: -e.log_evidence)
+
+
+def _solved(explanations: Sequence[Explanation]) -> bool:
+    """Whether one of them leaves nothing to explain: others then need not be sought in every valley."""
+    return any(e.adequacy > ADEQUATE for e in explanations)
 
 
 def with_second(first: Explanation, others: Sequence[Signature], counts: dict[str, int]) -> list[Explanation]:
@@ -109,13 +115,13 @@ def _starts_of(found: Scan, signature: Signature) -> list[tuple[Candidate, np.nd
     return [(s.candidate, s.start) for s in chosen[:STARTS]]
 
 
-def _best_refit(base: Refit, places: Sequence[tuple[Candidate, np.ndarray]]) -> Refit | None:
+def _best_refit(base: Refit, places: Sequence[tuple[Candidate, np.ndarray]], solved: bool) -> Refit | None:
     found: list[Refit] = []
     for candidate, start in places:
         z = np.r_[base.z, start]
         hypothesis = Hypothesis(base.hypothesis.study, (candidate,), base.hypothesis.left_out)
         best = _refitted(hypothesis, z)
-        if best is None or best.misfit > POOR * len(best.jacobian):
+        if not solved and (best is None or best.misfit > POOR * len(best.jacobian)):
             # a wide valley first: partners may change on the way
             rough = _refitted(replace(hypothesis, discrepancy=COARSE), z)
             sharp = None if rough is None else _refitted(hypothesis, rough.z)
