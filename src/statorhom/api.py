@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from statorhom.diagnose.run import diagnose_study
 from statorhom.errors import InputFileError
 from statorhom.geometry.stator import StatorGeometry, stator_geometry
 from statorhom.identify.announce import Announce, silent
@@ -14,6 +15,7 @@ from statorhom.identify.chain import chain
 from statorhom.identify.recorded_tests import with_recorded_tables
 from statorhom.identify.settings import Settings
 from statorhom.report import write_report
+from statorhom.results.diagnosis import Diagnosis
 from statorhom.results.files import check_folder, read_results
 from statorhom.results.schema import Results
 from statorhom.study.study import StudyFiles, load_study
@@ -129,6 +131,23 @@ class Study:
         results = self.fit(folder, seed=seed, jobs=jobs, announce=announce)
         write_report(folder)
         return results
+
+    def diagnose(
+        self,
+        out: str | os.PathLike[str] | None = None,
+        *,
+        seed: int = 1,
+        announce: Announce = silent,
+    ) -> Diagnosis:
+        """Say what physics the study's model left out; writes diagnosis.json.
+
+        Raises
+        ------
+        StatorhomError
+            If files, masses or tests do not allow it.
+        """
+        folder = self.default_folder if out is None else Path(out)
+        return diagnose_study(self.files, folder, Settings(seed=seed), announce)[0]
 
     @staticmethod
     def read(folder: str | os.PathLike[str]) -> Results:

@@ -124,6 +124,22 @@ def run(
 
 
 @app.command()
+def diagnose(study: StudyPath, out: Out = None, seed: Seed = 1, json: Json = False) -> None:
+    """Say what physics the model left out, where, and how sure that is; writes diagnosis.json."""
+    from statorhom.api import Study
+    from statorhom.command_line.tables import print_diagnosis
+
+    loaded = Study.load(study)
+    with progress_bars(quiet=json) as announce:
+        found = loaded.diagnose(out, seed=seed, announce=announce)
+    if json:
+        typer.echo(found.model_dump_json(by_alias=True))
+    else:
+        print_diagnosis(found)
+        typer.echo(f"wrote {(out or loaded.default_folder) / 'diagnosis.json'}", err=True)
+
+
+@app.command()
 def batch(
     studies: Annotated[
         list[Path], typer.Argument(metavar="STUDIES…", help="Study files of machines of one geometry.")

@@ -9,9 +9,12 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from statorhom.results.diagnosis import Estimated
+
 if TYPE_CHECKING:
     import pandas as pd
 
+    from statorhom.results.diagnosis import Diagnosis
     from statorhom.results.schema import Results, StageResult
 
 
@@ -79,6 +82,23 @@ def print_fleet(table: pd.DataFrame, errors: Mapping[str, str]) -> None:
         console.print(shown)
     for machine, error in errors.items():
         console.print(f"[bold yellow]failed[/]: {escape(machine)}: {escape(error)}")
+
+
+def print_diagnosis(diagnosis: Diagnosis) -> None:
+    """Verdict, effects, alternatives and what to measure next."""
+    console = Console()
+    console.print(f"verdict: [bold]{diagnosis.verdict}[/]")
+    if diagnosis.mismatch is not None:
+        console.print(escape(diagnosis.mismatch.statement))
+    for effect in diagnosis.effects:
+        values = ", ".join(
+            f"{name} = {p.value if isinstance(p, Estimated) else p}" for name, p in effect.parameters.items()
+        )
+        console.print(escape(f"{effect.effect} in stage {effect.stage}: {values} ({effect.probability:.0%})"))
+    for other in diagnosis.alternatives:
+        console.print(escape(f"or {other.effect} ({other.probability:.1%})"))
+    if diagnosis.next_measurement is not None:
+        console.print(escape(f"next: {diagnosis.next_measurement.what}"))
 
 
 def _stage_line(stage: StageResult) -> str:

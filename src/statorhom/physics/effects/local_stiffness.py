@@ -7,11 +7,12 @@ from collections.abc import Mapping
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Materials
 from statorhom.model.broken.change import Change
-from statorhom.model.broken.variations import region_stiffness, strip
+from statorhom.model.broken.variations import strip
 from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.effect import Confusion, Effect
 from statorhom.physics.parameter import EffectParameter, angle
+from statorhom.physics.pieces import region_pieces
 from statorhom.study.study import StudyFiles
 
 WIDTH_RAD = 0.1745  # 10°
@@ -39,7 +40,7 @@ class LocalStiffness(Effect):
         depth = DEPTH_SHARE * files.geometry.core.yoke_thickness_mm / 1e3
 
         def changes(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
-            core = region_stiffness(mesh, materials, ("lamination",))
+            core = region_pieces(mesh, "lamination", materials["lamination"])
             ratio, place = values["stiffness_ratio"], values["angle_rad"]
             return (strip(mesh, core, place, width=WIDTH_RAD, depth=depth, ratio=ratio),)
 

@@ -9,11 +9,12 @@ import numpy as np
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Materials
 from statorhom.model.broken.change import Change
-from statorhom.model.broken.variations import region_stiffness, wave
+from statorhom.model.broken.variations import wave
 from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.effect import Confusion, Effect
 from statorhom.physics.parameter import EffectParameter, angle
+from statorhom.physics.pieces import region_pieces
 from statorhom.study.study import StudyFiles
 
 # a ring splits order r by the harmonic 2 r alone; odd ones split nothing
@@ -49,7 +50,7 @@ class Ovality(Effect):
         harmonic = int(candidate.chosen["harmonic"])
 
         def changes(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
-            yoke = region_stiffness(mesh, materials, ("lamination",))
+            yoke = region_pieces(mesh, "lamination", materials["lamination"])
             size, place = values["relative_amplitude"], values["angle_rad"]
             return (wave(mesh, yoke, place, harmonic=harmonic, amplitude=size, inner=inner),)
 

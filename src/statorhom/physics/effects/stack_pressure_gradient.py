@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import numpy as np
-
 from statorhom.mesh.hex_mesh import HalfPitchMesh
-from statorhom.model.affine import Materials, hooke_coefficients
+from statorhom.model.affine import Materials
 from statorhom.model.assembly import HOOKE_ENTRIES
 from statorhom.model.broken.change import Change
-from statorhom.model.broken.pieces import stiffness_pieces
 from statorhom.model.broken.variations import gradient
 from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.effect import Confusion, Effect
 from statorhom.physics.parameter import EffectParameter
+from statorhom.physics.pieces import region_pieces
 from statorhom.study.study import StudyFiles
 
 RATIO = EffectParameter("G_rz_end_ratio", 0.15, 3.0, 0.02, 20.0, "log", (0.5, 1.8), 1.0)
@@ -41,9 +39,8 @@ class StackPressureGradient(Effect):
         length = files.geometry.core.length_mm / 1e3
 
         def changes(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
-            full = hooke_coefficients(materials["lamination"].hooke)
-            used = np.array([entry in CONTACT for entry in HOOKE_ENTRIES])
-            pieces = stiffness_pieces(mesh, {"lamination": np.where(used, full, 0.0)})
+            used = tuple(entry in CONTACT for entry in HOOKE_ENTRIES)
+            pieces = region_pieces(mesh, "lamination", materials["lamination"], used)
             slope = (ratio - 1.0) / (ratio + 1.0)
             return (gradient(mesh, pieces, ("lamination",), lambda z: slope * (2 * z / length - 1.0)),)
 

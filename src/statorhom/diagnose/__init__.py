@@ -1,0 +1,1 @@
+"""Says what physics a study's model left out: locates the mismatch, names it, fits it, and says how sure that is."""

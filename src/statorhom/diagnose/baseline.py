@@ -1,0 +1,169 @@
+"""The declared model fitted to all tests together: where every explanation starts from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.stats import norm, qmc
+
+from statorhom.diagnose.constants import Constants, study_constants
+from statorhom.diagnose.features import SCATTER_SD
+from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.refit import Refit, refit
+from statorhom.diagnose.stage_model import StageModel, mesh_error, stage_model, with_reference
+from statorhom.diagnose.study_model import StudyModel
+from statorhom.errors import IdentificationError, StatorhomError
+from statorhom.geometry.stator import StatorGeometry
+from statorhom.identify.settings import Settings
+from statorhom.identify.stage_setup import StageSetup, stage_setup
+from statorhom.model.affine import Materials
+from statorhom.study.study import StudyFiles
+
+SNAPSHOTS, TRIALS, STARTS, SHARPENED = (
+    6,
+    80,
+    6,
+    3,
+)  # materials that are solved, tried, refitted and sharpened per step
+COARSE = 0.03  # discrepancy with which valleys are found
+SPREAD = 0.8  # of the prior: how far materials to try lie apart
+SAME_HZ = 2e-4  # relative: a basis is good enough when a snapshot moves no frequency by more
+ROUNDS = 3
+MAX_SCATTER_ORDER = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Baseline:
+    """The declared model at its optimum; the references of its stages lie there."""
+
+    study: StudyModel
+    refit: Refit
+
+
+def baseline(
+    files: StudyFiles,
+    geometry: StatorGeometry,
+    tests: Mapping[str, MeasuredTest],
+    settings: Settings,
+) -> Baseline:
+    """Fit the declared model, step by step and then all steps together.
+
+    Raises
+    ------
+    IdentificationError
+        If the study has no test.
+    StatorhomError
+        If files, masses or tests do not allow it.
+    """
+    setups = [stage_setup(files, geometry, i) for i in range(len(files.study.stages))]
+    tested = [s for s in setups if s.tests and s.step is not None]
+    if not tested:
+        raise IdentificationError(f"{files.path}: no stage has a test; there is nothing to diagnose")
+    orders = sorted({m.order for t in tests.values() for m in t.modes if m.order is not None and m.order > 0})
+    constants = study_constants(setups, [r for r in orders if r <= MAX_SCATTER_ORDER], SCATTER_SD)
+    study = StudyModel(files, geometry, constants, ())
+    z = np.zeros(len(constants))
+    for setup in tested:
+        own = [tests[t.name] for t in setup.tests if t.name in tests]
+        study, z = _with_step(study, z, setup, own, settings)
+    return Baseline(study, refit(Hypothesis(study), z))
+
+
+def _with_step(
+    study: StudyModel, z: np.ndarray, setup: StageSetup, tests: Sequence[MeasuredTest], settings: Settings
+) -> tuple[StudyModel, np.ndarray]:
+    """One more step: its constants from the best of many starts."""
+    places = _new_constants(study.constants, setup)
+    trials = _trials(z, places, settings.seed)
+    snapshots = _materials(study, setup, trials)[:SNAPSHOTS]
+    stage = stage_model(setup, tests, snapshots, settings.density)
+    study = study.with_stages((*study.stages, stage))
+    # constants of earlier steps stay while new ones are sought
+    found = _best(study, trials)
+    for number in range(ROUNDS):
+        stage = study.stages[-1]
+        materials = study.materials(stage, study.constants.values(found.z), _masses(study, found.z))
+        before = _frequencies(stage, materials)
+        better = with_reference(stage, materials)
+        moved = max(abs(np.log(_frequencies(better, materials)[k] / f)) for k, f in before.items())
+        if number == 0:
+            better = replace(better, error=mesh_error(setup, better.ring, materials, settings.density))
+        study = study.with_stages((*study.stages[:-1], better))
+        found = refit(Hypothesis(study), found.z)
+        if number > 0 and moved < SAME_HZ:
+            break
+    return study, found.z
+
+
+def _frequencies(stage: StageModel, materials: Materials) -> dict[int, float]:
+    """Lowest frequencies by number."""
+    return {i: m.frequency_hz for i, m in enumerate(stage.solve(materials).modes[:12])}
+
+
+def _masses(study: StudyModel, z: np.ndarray) -> dict[str, float]:
+    return study.masses(study.constants.values(z), {})
+
+
+def _new_constants(constants: Constants, setup: StageSetup) -> list[int]:
+    prefix = f"{setup.keys.name}:"
+    return [
+        i
+        for i, c in enumerate(constants.items)
+        if c.name.startswith(prefix) and "." in c.name and c.sd > 1e-6
+    ]
+
+
+def _trials(z: np.ndarray, places: Sequence[int], seed: int) -> list[np.ndarray]:
+    """The prior's median and points around it, in the new constants alone."""
+    found = [z]
+    if places:
+        cube = qmc.LatinHypercube(len(places), seed=seed).random(TRIALS)
+        for row in SPREAD * norm.ppf(0.02 + 0.96 * cube):
+            point = z.copy()
+            point[list(places)] = row
+            found.append(point)
+    return found
+
+
+def _materials(study: StudyModel, setup: StageSetup, points: Sequence[np.ndarray]) -> list[Materials]:
+    found = []
+    for z in points:
+        values = study.constants.values(z)
+        try:
+            found.append(study.declared(setup, values, study.masses(values, {})))
+        except StatorhomError:
+            continue
+    if not found:
+        raise IdentificationError(
+            f"stage {setup.keys.name!r}: no material is possible; check masses and priors"
+        )
+    return found
+
+
+def _best(study: StudyModel, trials: Sequence[np.ndarray]) -> Refit:
+    """The best optimum: found in wide valleys first, then sharpened."""
+    coarse = Hypothesis(study, discrepancy=COARSE)
+    scored = []
+    for z in trials:
+        try:
+            hypothesis = coarse.paired(z)
+            scored.append((float(np.sum(hypothesis.residuals(z) ** 2) + z @ z) + hypothesis.missed, z))
+        except StatorhomError:
+            continue
+    scored.sort(key=lambda pair: pair[0])
+    wide = [r for _, z in scored[:STARTS] if (r := _refitted(coarse, z)) is not None]
+    wide.sort(key=lambda r: r.objective)
+    found = [r for w in wide[:SHARPENED] if (r := _refitted(Hypothesis(study), w.z)) is not None]
+    if not found:
+        raise IdentificationError("no start of the declared model could be fitted; check masses and tables")
+    return min(found, key=lambda r: r.objective)
+
+
+def _refitted(hypothesis: Hypothesis, z: np.ndarray) -> Refit | None:
+    try:
+        return refit(hypothesis, z)
+    except StatorhomError:
+        return None

@@ -1,0 +1,138 @@
+"""All constants of a study's steps in one vector: materials shared along the chain, weights, mesh error, scatter.
+
+Every coordinate measures the deviation from its prior median in prior standard deviations.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from statorhom.identify.parameters import Parameter
+from statorhom.identify.priors import Carried, stage_space
+from statorhom.identify.stage_materials import DENSITY
+from statorhom.identify.stage_problem import MESH
+from statorhom.identify.stage_setup import StageSetup
+
+FloatArray = npt.NDArray[np.float64]
+_Z90 = 1.6448536269514722
+
+
+@dataclass(frozen=True)
+class Constant:
+    """One coordinate.
+
+    Parameters
+    ----------
+    name : "stage:source.constant", "stage:mass_kg", "stage:mesh" or "scatter r re/im".
+    median, sd : of the normal prior, of the logarithm where `log`.
+    lower, upper : limits of the value.
+    log : scale of the prior.
+    """
+
+    name: str
+    median: float
+    sd: float
+    lower: float
+    upper: float
+    log: bool = False
+
+    def value(self, internal: float) -> float:
+        """In its own unit."""
+        step = self.sd * internal
+        value = self.median * math.exp(step) if self.log else self.median + step
+        return min(max(value, self.lower), self.upper)
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Of the coordinate."""
+        low, high = (
+            (np.log(v / self.median) if self.log else v - self.median) / self.sd
+            for v in (self.lower, self.upper)
+        )
+        return float(low), float(high)
+
+
+@dataclass(frozen=True)
+class Constants:
+    """The coordinates of a study.
+
+    Parameters
+    ----------
+    items : in the order of the vector.
+    owners : per stage: constant as the stage's materials name it → name of the coordinate.
+    """
+
+    items: tuple[Constant, ...]
+    owners: tuple[Mapping[str, str], ...]
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Of the coordinates."""
+        return tuple(c.name for c in self.items)
+
+    def values(self, x: FloatArray) -> dict[str, float]:
+        """Values by name."""
+        return {c.name: c.value(u) for c, u in zip(self.items, x.tolist(), strict=True)}
+
+    def stage_values(self, values: Mapping[str, float], stage: int) -> dict[str, float]:
+        """Material constants of a stage, by the names that its materials use; densities left out."""
+        return {own: values[name] for own, name in self.owners[stage].items()}
+
+    @property
+    def limits(self) -> tuple[FloatArray, FloatArray]:
+        """Lowest and highest coordinates."""
+        pairs = np.array([c.limits for c in self.items])
+        return pairs[:, 0], pairs[:, 1]
+
+
+def study_constants(setups: Sequence[StageSetup], orders: Sequence[int], scatter_sd: float) -> Constants:
+    """Coordinates of all steps.
+
+    Parameters
+    ----------
+    setups : the steps.
+    orders : circumferential orders whose doublets manufacturing scatter splits.
+    scatter_sd : of the real and of the imaginary part of their relative split.
+    """
+    items: list[Constant] = []
+    owners: list[dict[str, str]] = []
+    known: dict[str, str] = {}
+    for setup in setups:
+        stage = setup.keys.name
+        items.append(_weight(stage, setup.keys.mass_kg, setup.keys.mass_sd_kg))
+        if setup.tests:
+            space = stage_space(setup.keys, setup.materials, setup.new, setup.densities, Carried(), {})
+            for parameter in space.parameters:
+                if parameter.name == MESH or parameter.name.endswith(DENSITY):
+                    continue
+                name = f"{stage}:{parameter.name}"
+                known = {k: v for k, v in known.items() if k != parameter.name} | {parameter.name: name}
+                items.append(_constant(name, parameter))
+            items.append(Constant(f"{stage}:mesh", 0.0, 1.0, -5.0, 5.0))
+        used = {n for region in setup.materials.regions for n in region.names}
+        owners.append({n: known[n] for n in used if n in known})
+    items += [
+        Constant(f"scatter {r} {part}", 0.0, scatter_sd, -1.0, 1.0) for r in orders for part in ("re", "im")
+    ]
+    return Constants(tuple(items), tuple(owners))
+
+
+def _weight(stage: str, mass_kg: float, sd_kg: float) -> Constant:
+    return Constant(f"{stage}:mass_kg", mass_kg, sd_kg, 0.01 * mass_kg, 100 * mass_kg)
+
+
+def _constant(name: str, p: Parameter) -> Constant:
+    if p.fixed:
+        return Constant(name, p.median, 1e-9 * (abs(p.median) or 1.0), -np.inf, np.inf)
+    log = p.scale == "log"
+    low, high = (np.log(v) if log else v for v in (p.low90, p.high90))
+    return Constant(name, p.median, float(high - low) / (2 * _Z90), p.lower, p.upper, log)

@@ -1,0 +1,95 @@
+"""The rules by which an effect is named (physics.md §8)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from statorhom.diagnose.explanations import Explanation
+from statorhom.diagnose.held_out import HeldOut
+
+Verdict = Literal["none", "named", "ambiguous", "unknown"]
+MAX_T_P = 0.01
+OVER_NOTHING, OVER_OTHERS = 5.0, 3.0  # of log evidence
+ADEQUATE = 0.01
+STABLE = 0.8
+NEAR_BOUND = 0.02  # of a parameter's range, in its own scale
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What the rules look at.
+
+    Parameters
+    ----------
+    p_value : of the scan's maximum.
+    over_nothing, over_others : log evidence of the best explanation over "nothing" and over the next one.
+    held_out : errors on modes that were not seen; None where there were too few.
+    adequacy : posterior-predictive p of the best explanation.
+    nothing_adequacy : and of the declared model.
+    within : whether all magnitudes lie inside their physical ranges, off the bounds.
+    stability : share of resamplings with the same winner.
+    """
+
+    p_value: float
+    over_nothing: float
+    over_others: float
+    held_out: HeldOut | None
+    adequacy: float
+    nothing_adequacy: float
+    within: bool
+    stability: float
+
+    @property
+    def detected(self) -> bool:
+        """Rule 1, and the first half of rule 2: something is missing."""
+        return self.p_value < MAX_T_P and self.over_nothing > OVER_NOTHING
+
+    @property
+    def predicts(self) -> bool:
+        """Rule 3."""
+        return self.held_out is not None and self.held_out.falls and not self.held_out.worsens
+
+    @property
+    def sound(self) -> bool:
+        """Rule 4."""
+        return self.adequacy > ADEQUATE and self.within
+
+    @property
+    def alone(self) -> bool:
+        """Second half of rule 2, and rule 5."""
+        return self.over_others > OVER_OTHERS and self.stability >= STABLE
+
+
+def decide(evidence: Evidence) -> Verdict:
+    """The verdict."""
+    if not evidence.detected:
+        return "none" if evidence.nothing_adequacy > ADEQUATE or evidence.p_value >= MAX_T_P else "unknown"
+    if not (evidence.predicts and evidence.sound):
+        return "unknown" if evidence.nothing_adequacy <= ADEQUATE else "none"
+    return "named" if evidence.alone else "ambiguous"
+
+
+def within_bounds(explanation: Explanation) -> bool:
+    """Whether no magnitude lies on a bound of its physical range."""
+    values = explanation.refit.hypothesis.effect_values(explanation.refit.z)
+    for candidate, found in zip(explanation.candidates, values, strict=True):
+        for p in candidate.magnitudes:
+            low, value, high = (
+                (np.log(v) if p.scale == "log" else v) for v in (p.lower, found[p.name], p.upper)
+            )
+            if not low + NEAR_BOUND * (high - low) < value < high - NEAR_BOUND * (high - low):
+                return False
+    return True
+
+
+def others(best: Explanation, explanations: Sequence[Explanation]) -> list[Explanation]:
+    """The best explanation of every other combination of effects."""
+    found: dict[tuple[str, ...], Explanation] = {}
+    for e in explanations:
+        if set(e.effects) != set(best.effects) and not set(best.effects) < set(e.effects):
+            found.setdefault(tuple(sorted(e.effects)), e)
+    return sorted(found.values(), key=lambda e: -e.log_evidence)

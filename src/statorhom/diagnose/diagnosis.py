@@ -1,0 +1,216 @@
+"""The whole way: declared model, scan, explanations, rules, verdict."""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from statorhom.diagnose.baseline import Baseline, baseline
+from statorhom.diagnose.decision import Evidence, Verdict, decide, others, within_bounds
+from statorhom.diagnose.explanations import (
+    ADEQUATE,
+    Explanation,
+    effect_evidence,
+    nothing,
+    single_effects,
+    with_second,
+)
+from statorhom.diagnose.held_out import HeldOut, held_out
+from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.next_measurement import next_measurement
+from statorhom.diagnose.report_rows import (
+    constant_rows,
+    effect_results,
+    feature_rows,
+    frequency_errors,
+    mismatch,
+)
+from statorhom.diagnose.resampling import stability
+from statorhom.diagnose.scan import Scan, scan
+from statorhom.geometry.stator import StatorGeometry
+from statorhom.identify.announce import Announce, silent
+from statorhom.identify.settings import Settings
+from statorhom.physics.library import all_candidates, library
+from statorhom.results.diagnosis import (
+    Alternative,
+    Details,
+    Diagnosis,
+    FitErrors,
+    HeldOutErrors,
+    ScanRow,
+)
+from statorhom.study.study import StudyFiles
+
+COMPARED = 4  # explanations that resamplings compare
+SECONDS = 5  # effects that are tried beside the first
+PAIR_GAIN = 5.0  # log evidence that a second effect must add
+LEAST_PROBABILITY = 0.005
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """A verdict and what it rests on."""
+
+    verdict: Verdict
+    best: Explanation
+    explanations: tuple[Explanation, ...]
+    scan: Scan
+    evidence: Evidence
+    base: Baseline
+
+
+def diagnose(
+    files: StudyFiles,
+    geometry: StatorGeometry,
+    tests: Mapping[str, MeasuredTest],
+    settings: Settings,
+    announce: Announce = silent,
+) -> tuple[Diagnosis, Details]:
+    """Diagnose a study whose recordings have become tables.
+
+    Raises
+    ------
+    StatorhomError
+        If files, masses or tests do not allow it.
+    """
+    began = time.perf_counter()
+    with threadpool_limits(limits=1, user_api="blas"):
+        found = _find(files, geometry, tests, settings, announce)
+        diagnosis = _diagnosis(files, found)
+        details = _details(found, time.perf_counter() - began)
+    return diagnosis, details
+
+
+def _find(
+    files: StudyFiles,
+    geometry: StatorGeometry,
+    tests: Mapping[str, MeasuredTest],
+    settings: Settings,
+    announce: Announce,
+) -> Found:
+    progress = announce("declared model", 1)
+    base = baseline(files, geometry, tests, settings)
+    progress(1)
+    candidates = all_candidates(files)
+    counts = dict(Counter(c.effect for c in candidates))
+    progress = announce("scan of effects", 1)
+    signatures = scan(base.refit, [c for c in candidates if c.parameters], settings.seed)
+    progress(1)
+    progress = announce("explanations", 1)
+    found = single_effects(base.refit, signatures, [c for c in candidates if not c.parameters], counts)
+    if found and found[0].adequacy < ADEQUATE:
+        used = found[0].effects
+        second = [s for s in signatures.worth_refitting(SECONDS, 0.0) if s.candidate.effect not in used]
+        pairs = with_second(found[0], second[:SECONDS], counts)
+        found += [p for p in pairs if p.log_evidence > found[0].log_evidence + PAIR_GAIN]
+        found.sort(key=lambda e: -e.log_evidence)
+    progress(1)
+    none = nothing(base.refit)
+    best = found[0] if found else none
+    evidence = _evidence(base, best, none, found, signatures, settings.seed)
+    return Found(decide(evidence), best, tuple(found), signatures, evidence, base)
+
+
+def _evidence(
+    base: Baseline,
+    best: Explanation,
+    none: Explanation,
+    found: Sequence[Explanation],
+    signatures: Scan,
+    seed: int,
+) -> Evidence:
+    rest = others(best, found)
+    totals = effect_evidence(found)
+    own = totals.get(best.effects, best.log_evidence)
+    next_best = max((totals[e.effects] for e in rest), default=-np.inf)
+    discrete = bool(best.candidates) and not any(c.parameters for c in best.candidates)
+    # names are discrete: no signature stands for them, their evidence does
+    p_value = float(np.exp(-max(0.0, own - none.log_evidence))) if discrete else signatures.p_value
+    over = own - none.log_evidence
+    unseen: HeldOut | None = None
+    if best.candidates and over > 0:
+        unseen = held_out(base.refit, best)
+    return Evidence(
+        p_value=p_value,
+        over_nothing=over,
+        over_others=float(own - next_best) if np.isfinite(next_best) else float("inf"),
+        held_out=unseen,
+        adequacy=best.adequacy,
+        nothing_adequacy=none.adequacy,
+        within=within_bounds(best),
+        stability=stability([best, none, *rest[: COMPARED - 2]], seed),
+    )
+
+
+def _diagnosis(files: StudyFiles, found: Found) -> Diagnosis:
+    base, best = found.base.refit, found.best
+    chances = _probabilities(found)
+    named = found.verdict == "named"
+    after = best.refit if found.verdict in ("named", "ambiguous") else base
+    unseen = found.evidence.held_out
+    rest = [
+        Alternative(effect=e, probability=p) for e, p in chances.items() if e not in best.effects or not named
+    ]
+    shown = [a for a in rest if a.probability >= LEAST_PROBABILITY and a.effect != "none"]
+    ambiguous = found.verdict == "ambiguous"
+    return Diagnosis(
+        schema_version=1,
+        study=files.study.name,
+        verdict=found.verdict,
+        effects=effect_results(best, chances.get("+".join(best.effects), 0.0)) if named else (),
+        alternatives=tuple(shown) if found.verdict != "none" else (),
+        mismatch=mismatch(base) if found.verdict != "none" else None,
+        fit=FitErrors(
+            before=frequency_errors(base),
+            after=frequency_errors(after),
+            held_out=None
+            if unseen is None or found.verdict == "none"
+            else HeldOutErrors(
+                what="each mode predicted from fits that did not see it (three folds)",
+                before_rms_percent=unseen.before_rms,
+                after_rms_percent=unseen.after_rms,
+            ),
+        ),
+        next_measurement=next_measurement(best, others(best, found.explanations)) if ambiguous else None,
+    )
+
+
+def _probabilities(found: Found) -> dict[str, float]:
+    """Of every combination of effects and of nothing, equally likely beforehand."""
+    totals = {"+".join(e): v for e, v in effect_evidence(found.explanations).items()}
+    totals["none"] = found.base.refit.log_evidence
+    top = max(totals.values())
+    weights = {e: float(np.exp(v - top)) for e, v in totals.items()}
+    whole = sum(weights.values())
+    return dict(sorted(((e, w / whole) for e, w in weights.items()), key=lambda p: -p[1]))
+
+
+def _details(found: Found, seconds: float) -> Details:
+    best, e = found.best, found.evidence
+    effect = library()[best.effects[0]] if best.effects else None
+    seen: dict[str, ScanRow] = {}
+    for s in found.scan.signatures:
+        c = s.candidate
+        seen.setdefault(c.label, ScanRow(effect=c.effect, label=c.label, gain=s.gain))
+    return Details(
+        p_value=e.p_value,
+        over_nothing=e.over_nothing,
+        over_others=min(e.over_others, 1e6),
+        adequacy=e.adequacy,
+        nothing_adequacy=e.nothing_adequacy,
+        stability=e.stability,
+        summary=None if effect is None else effect.summary,
+        citation=None if effect is None else effect.citation,
+        confusions=() if effect is None else tuple((c.effect, c.separated_by) for c in effect.confused_with),
+        features=feature_rows(found.base.refit, best.refit),
+        scan=tuple(seen.values())[:20],
+        angles=(),
+        constants=constant_rows(found.base.refit, best.refit),
+        evidence=tuple((x.candidates[0].label, x.log_evidence) for x in found.explanations),
+        seconds=seconds,
+    )

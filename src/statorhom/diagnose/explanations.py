@@ -1,0 +1,146 @@
+"""Explanations of the misfit: the best candidates of every effect refitted, with their evidence."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.special import logsumexp
+from scipy.stats import chi2
+
+from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.diagnose.mislabelled import worth_trying
+from statorhom.diagnose.refit import Refit, refit
+from statorhom.diagnose.scan import Scan, Signature
+from statorhom.errors import StatorhomError
+from statorhom.physics.candidate import Candidate
+
+COARSE = 0.03
+STARTS = 2  # of one candidate
+WORTH = 2.0  # gain of the scan below which an effect is not refitted
+MOST = 12  # candidates that are refitted
+RELABELLED = 4
+ADEQUATE = 0.01  # chance of a misfit above which nothing is left to explain
+POOR = 3.0  # squared residual per feature above which another valley is looked for
+
+
+@dataclass(frozen=True, eq=False)
+class Explanation:
+    """One or more effects at their optimum.
+
+    Parameters
+    ----------
+    candidates : the effects.
+    refit : of all constants.
+    log_evidence : with the prior over the effects' candidates.
+    """
+
+    candidates: tuple[Candidate, ...]
+    refit: Refit
+    log_evidence: float
+
+    @property
+    def effects(self) -> tuple[str, ...]:
+        """Names."""
+        return tuple(c.effect for c in self.candidates)
+
+    @property
+    def adequacy(self) -> float:
+        """Chance of a misfit at least as large, if the explanation is right."""
+        r = self.refit
+        features = len(r.jacobian)
+        return float(chi2.sf(r.objective - r.hypothesis.missed, max(features, 1)))
+
+
+def nothing(base: Refit) -> Explanation:
+    """The declared model."""
+    return Explanation((), base, base.log_evidence)
+
+
+def single_effects(
+    base: Refit, found: Scan, discrete: Sequence[Candidate], counts: dict[str, int]
+) -> list[Explanation]:
+    """Refits of the most promising candidates of every effect, the best of each effect first in its list.
+
+    Parameters
+    ----------
+    base : the declared model's optimum.
+    found : the scan.
+    discrete : candidates without parameters.
+    counts : effect → number of its candidates, over which its prior is spread.
+    """
+    explanations: list[Explanation] = []
+    for signature in found.worth_refitting(MOST, WORTH):
+        best = _best_refit(base, _starts_of(found, signature), _solved(explanations))
+        if best is not None:
+            explanations.append(_explanation(best, counts))
+    for candidate in worth_trying(base, discrete)[:RELABELLED]:
+        best = _best_refit(base, [(candidate, np.empty(0))], _solved(explanations))
+        if best is not None:
+            explanations.append(_explanation(best, counts))
+    return sorted(explanations, key=lambda e: -e.log_evidence)
+
+
+def _solved(explanations: Sequence[Explanation]) -> bool:
+    """Whether one of them leaves nothing to explain: others then need not be sought in every valley."""
+    return any(e.adequacy > ADEQUATE for e in explanations)
+
+
+def with_second(first: Explanation, others: Sequence[Signature], counts: dict[str, int]) -> list[Explanation]:
+    """The first explanation and one more effect."""
+    found = []
+    for signature in others:
+        start = np.r_[first.refit.z, signature.start]
+        hypothesis = Hypothesis(first.refit.hypothesis.study, (*first.candidates, signature.candidate))
+        best = _refitted(hypothesis, start)
+        if best is not None:
+            found.append(_explanation(best, counts))
+    return sorted(found, key=lambda e: -e.log_evidence)
+
+
+def _explanation(best: Refit, counts: dict[str, int]) -> Explanation:
+    candidates = best.hypothesis.candidates
+    prior = -sum(float(np.log(max(1, counts.get(c.effect, 1)))) for c in candidates)
+    return Explanation(candidates, best, best.log_evidence + prior)
+
+
+def _starts_of(found: Scan, signature: Signature) -> list[tuple[Candidate, np.ndarray]]:
+    """The best starts of a candidate that are not neighbours, and those of its other magnitudes."""
+    own = [s for s in found.signatures if s.candidate.label == signature.candidate.label]
+    chosen: list[Signature] = []
+    for one in own:
+        if all(abs(float(one.change @ other.change)) < 0.9 for other in chosen):
+            chosen.append(one)
+    return [(s.candidate, s.start) for s in chosen[:STARTS]]
+
+
+def _best_refit(base: Refit, places: Sequence[tuple[Candidate, np.ndarray]], solved: bool) -> Refit | None:
+    found: list[Refit] = []
+    for candidate, start in places:
+        z = np.r_[base.z, start]
+        hypothesis = Hypothesis(base.hypothesis.study, (candidate,), base.hypothesis.left_out)
+        best = _refitted(hypothesis, z)
+        if not solved and (best is None or best.misfit > POOR * len(best.jacobian)):
+            # a wide valley first: partners may change on the way
+            rough = _refitted(replace(hypothesis, discrepancy=COARSE), z)
+            sharp = None if rough is None else _refitted(hypothesis, rough.z)
+            best = min((r for r in (best, sharp) if r), key=lambda r: r.objective, default=None)
+        if best is not None:
+            found.append(best)
+    return min(found, key=lambda r: r.objective, default=None)
+
+
+def _refitted(hypothesis: Hypothesis, z: np.ndarray) -> Refit | None:
+    try:
+        return refit(hypothesis, z)
+    except (StatorhomError, KeyError):
+        return None
+
+
+def effect_evidence(explanations: Sequence[Explanation]) -> dict[tuple[str, ...], float]:
+    """ln Z of every combination of effects, its candidates summed."""
+    found: dict[tuple[str, ...], list[float]] = {}
+    for e in explanations:
+        found.setdefault(e.effects, []).append(e.log_evidence)
+    return {effects: float(logsumexp(values)) for effects, values in found.items()}

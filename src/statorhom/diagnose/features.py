@@ -1,0 +1,240 @@
+"""Measured against predicted, in standard deviations: frequencies, doublet splits, pole shifts along the axis.
+
+Two things are in every measurement and no left-out physics: the mesh's error, which all modes of a stage share (a
+coordinate of the constants) or have by themselves, and a lamination that differs a little around the stator.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from statorhom.diagnose.measured import MeasuredSplit, MeasuredTest
+from statorhom.diagnose.prediction import PredictedMode
+from statorhom.identify.model_error import DEFAULT_RELATIVE_SD, ModelError
+from statorhom.identify.stage_problem import FOUND, GATE, HALF_FOUND, LABELLED_GATE, PAIRING_SD
+from statorhom.model.convergence import ModeKey
+from statorhom.modes.pairing import pair
+from statorhom.study.modal_table import MeasuredMode
+
+OWN, OWN_PART = 5e-4, 0.05  # of frequencies: floor, and part of the mesh's correction
+SCATTER_SD = (
+    1.2e-3  # of either part of a doublet's relative split: sheets, punching and welding vary that much
+)
+SPLIT_OWN = 3e-4  # what the modes of one order differ by in it
+SPLIT_PART = 0.05  # of a split: shape and foot of what causes it are not known
+UNRESOLVED = 0.6  # of the loss factor: standard deviation of a split that shows one mode alone
+SHIFT_OWN = 3e-5  # of pole shifts from plane to plane
+LINEAR, KNEE = 8.0, 3.0  # residuals grow with their logarithm beyond: one outlier does not bend all constants
+LOST, LOST_UNNAMED = 10.0, 4.0  # residual of a mode of a table that has no partner
+
+Keys = tuple[ModeKey | None, ...]
+
+
+@dataclass(frozen=True)
+class Feature:
+    """One residual.
+
+    Parameters
+    ----------
+    kind : "frequency", "split", "shift", "density".
+    test : of which test, empty for densities.
+    key : of which mode.
+    measured, predicted : ln f, relative split, relative shift, or kg/m³.
+    sd : of their difference.
+    """
+
+    kind: str
+    test: str
+    key: ModeKey | None
+    measured: float
+    predicted: float
+    sd: float
+
+    @property
+    def residual(self) -> float:
+        """In standard deviations, large ones held down."""
+        return held_down((self.measured - self.predicted) / self.sd)
+
+    @property
+    def group(self) -> tuple[str, ModeKey | None]:
+        """What is held out together: all features of one named mode of a test."""
+        return self.test, self.key
+
+
+def held_down(residual: float) -> float:
+    """The residual itself up to `LINEAR`, then its logarithm."""
+    size = abs(residual)
+    if size <= LINEAR:
+        return residual
+    return float(np.sign(residual) * (LINEAR + KNEE * np.log1p((size - LINEAR) / KNEE)))
+
+
+def assigned(
+    test: MeasuredTest, modes: Sequence[MeasuredMode], predicted: Mapping[ModeKey, PredictedMode]
+) -> Keys:
+    """Named partner of every measured mode."""
+    simulated = sorted(predicted.values(), key=lambda mode: mode.frequency_hz)
+    used = [i for i, mode in enumerate(modes) if not (test.recorded and mode.order is None)]
+    found = pair(
+        [modes[i] for i in used],
+        simulated,
+        PAIRING_SD,
+        gate=GATE,
+        labelled_gate=LABELLED_GATE,
+        with_doubt=False,
+    )
+    keys: list[ModeKey | None] = [None] * len(modes)
+    for p in found.pairs:
+        keys[used[p.measured]] = simulated[p.simulated].key
+    return tuple(keys)
+
+
+def missed_cost(test: MeasuredTest, keys: Keys, predicted: Mapping[ModeKey, PredictedMode]) -> float:
+    """-2 ln of the chance that a test found none of the visible modes of its band that have no partner."""
+    band = [mode.frequency_hz for mode in test.modes]
+    chances = [
+        1.0 - FOUND * mode.mode.visibility / (mode.mode.visibility + HALF_FOUND)
+        for key, mode in predicted.items()
+        if min(band) < mode.frequency_hz < max(band) and key not in keys
+    ]
+    return float(-2.0 * np.sum(np.log(chances)))
+
+
+def free_features(
+    test: MeasuredTest,
+    modes: Sequence[MeasuredMode],
+    keys: Keys,
+    predicted: Mapping[ModeKey, PredictedMode],
+    scatter: Mapping[int, complex],
+    error: ModelError,
+    discrepancy: float = 0.0,
+) -> list[Feature]:
+    """Frequencies and splits of a free test.
+
+    Parameters
+    ----------
+    test, modes : the measurement, names corrected.
+    keys : partner of every mode.
+    predicted : modes by key.
+    scatter : order → relative split by manufacturing scatter.
+    error : mesh uncertainty.
+    discrepancy : relative standard deviation that is added to all frequencies.
+    """
+    found: list[Feature] = []
+    for key in dict.fromkeys(keys):
+        rows = [mode for mode, k in zip(modes, keys, strict=True) if k == key]
+        if key is None:
+            found += _lost(test, rows)
+        elif key in predicted:
+            found += _mode_features(
+                test, rows, predicted[key], scatter, float(np.hypot(own_sd(error, key), discrepancy))
+            )
+        else:
+            found += _lost(test, rows)
+    return found
+
+
+def _lost(test: MeasuredTest, rows: Sequence[MeasuredMode]) -> list[Feature]:
+    if test.recorded:
+        return []
+    return [
+        Feature("frequency", test.name, None, LOST if m.order is not None else LOST_UNNAMED, 0.0, 1.0)
+        for m in rows
+    ]
+
+
+def own_sd(error: ModelError, key: ModeKey) -> float:
+    """Relative model error of a mode that others do not share: what of the mesh's is not in their common pattern."""
+    return float(np.hypot(OWN, OWN_PART * (error.factor(key) - 1.0)))
+
+
+def measured_sd(mode: MeasuredMode) -> float:
+    """Relative standard deviation of a measured frequency."""
+    return DEFAULT_RELATIVE_SD if mode.frequency_sd_hz is None else mode.frequency_sd_hz / mode.frequency_hz
+
+
+def _mode_features(
+    test: MeasuredTest,
+    rows: Sequence[MeasuredMode],
+    predicted: PredictedMode,
+    scatter: Mapping[int, complex],
+    own: float,
+) -> list[Feature]:
+    key = predicted.key
+    split = predicted.split + scatter.get(key[0], 0j) if predicted.multiplicity == 2 else 0j
+    if len(rows) == 1:
+        return _single(test, rows[0], predicted, split, own)
+    low, high = rows[0], rows[-1]
+    pairing = _split_of(test, rows)
+    mean = float(np.mean(np.log([low.frequency_hz, high.frequency_hz])))
+    sd = float(np.hypot(measured_sd(low), measured_sd(high))) / 2
+    if test.recorded and pairing is None:
+        # images of one mode, or a doublet whose angles do not show: somewhere between
+        sd = float(np.hypot(sd, np.log(high.frequency_hz / low.frequency_hz) / 2))
+        return [Feature("frequency", test.name, key, mean, predicted.log_f, float(np.hypot(sd, own)))]
+    found = [Feature("frequency", test.name, key, mean, predicted.log_f, float(np.hypot(sd, own)))]
+    if pairing is not None:
+        sd = float(np.sqrt(pairing.sd**2 + SPLIT_OWN**2 + (SPLIT_PART * abs(pairing.relative)) ** 2))
+        parts = ((pairing.relative.real, split.real), (pairing.relative.imag, split.imag))
+        return found + [Feature("split", test.name, key, m, p, sd) for m, p in parts]
+    size = 2 * float(np.log(high.frequency_hz / low.frequency_hz))
+    noise = 2 * float(np.hypot(measured_sd(low), measured_sd(high)))
+    sd = float(np.sqrt(noise**2 + SPLIT_OWN**2 + (SPLIT_PART * size) ** 2))
+    return [*found, Feature("split", test.name, key, size, abs(split), sd)]
+
+
+def _single(
+    test: MeasuredTest, row: MeasuredMode, predicted: PredictedMode, split: complex, own: float
+) -> list[Feature]:
+    """One line of a doublet: not resolved, or its other line was missed."""
+    log_f, measured = predicted.log_f, float(np.log(row.frequency_hz))
+    sd = float(np.hypot(measured_sd(row), own))
+    if predicted.multiplicity == 1:
+        return [Feature("frequency", test.name, predicted.key, measured, log_f, sd)]
+    # one of two lines, at a quarter of the split of λ to either side of the mean
+    away = abs(split) / 4
+    log_f += away * float(np.tanh((measured - log_f) / (0.3 * away + 1e-9)))
+    width = UNRESOLVED * (row.loss_factor or 0.01)
+    most = 3.0 if test.recorded else 1.8  # tables leave modes out
+    unresolved = most * float(np.tanh(abs(split) / (width * most)))
+    return [
+        Feature("frequency", test.name, predicted.key, measured, log_f, sd),
+        Feature("split", test.name, predicted.key, 0.0, unresolved, 1.0),
+    ]
+
+
+def _split_of(test: MeasuredTest, rows: Sequence[MeasuredMode]) -> MeasuredSplit | None:
+    labels = {row.label for row in rows}
+    return next((s for s in test.splits if {s.lower, s.upper} <= labels), None)
+
+
+def shift_features(
+    test: MeasuredTest,
+    keys: Mapping[str, ModeKey],
+    amplitudes: Mapping[ModeKey, tuple[np.ndarray, np.ndarray]],
+    sensor_kg: float,
+) -> list[Feature]:
+    """Pole shifts from plane to plane by a sensor's mass, δf/f = -½ m φ².
+
+    Parameters
+    ----------
+    keys : label of a measured mode → its name.
+    amplitudes : heights (m) and radial amplitudes at an antinode (1/√kg) of the named modes.
+    """
+    found = []
+    for shifts in test.shifts:
+        key = keys.get(shifts.label)
+        if key is None or key not in amplitudes:
+            continue
+        square = np.interp(shifts.z_m, *amplitudes[key]) ** 2
+        moved = -0.5 * sensor_kg * square
+        weight = shifts.sd**-2 / np.sum(shifts.sd**-2)
+        moved = moved - weight @ moved
+        for measured, p, sd in zip(shifts.shift, moved, shifts.sd, strict=True):
+            found.append(
+                Feature("shift", test.name, key, float(measured), float(p), float(np.hypot(sd, SHIFT_OWN)))
+            )
+    return found

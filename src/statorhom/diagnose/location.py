@@ -1,0 +1,63 @@
+"""Where an effect sits: angle with its true ambiguity, and height, from the explanation's optimum."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from statorhom.diagnose.explanations import Explanation
+from statorhom.diagnose.features import Feature
+from statorhom.physics.candidate import Candidate
+from statorhom.results.diagnosis import Location
+
+TOLD = 3.0  # standard deviations of a split from which on it tells an angle
+
+
+def located(explanation: Explanation, number: int) -> Location | None:
+    """Location of one of the explanation's effects; None where it has none."""
+    candidate = explanation.candidates[number]
+    if not any(p.located for p in candidate.parameters):
+        return None
+    r = explanation.refit
+    values = r.hypothesis.effect_values(r.z)[number]
+    sd = _deviations(explanation, number)
+    angle, place = values.get("angle_rad"), values.get("z_m")
+    told = "angle_rad" in sd and sd["angle_rad"] < 0.5
+    return Location(
+        angle_deg=float(np.rad2deg(angle)) if angle is not None and told else None,
+        angle_sd_deg=float(np.rad2deg(sd["angle_rad"])) if angle is not None and told else None,
+        angle_ambiguity_deg=_equivalent(candidate, r.hypothesis.features(r.z), angle)
+        if told and angle is not None
+        else (),
+        z_mm=None if place is None else 1e3 * place,
+        z_sd_mm=None if place is None else 1e3 * min(sd["z_m"], candidate.parameters[-1].upper),
+    )
+
+
+def _deviations(explanation: Explanation, number: int) -> dict[str, float]:
+    r = explanation.refit
+    covariance = r.covariance
+    found = {}
+    for k, (i, j) in enumerate(r.hypothesis.parameters):
+        parameter = r.hypothesis.candidates[i].parameters[j]
+        if i == number and parameter.located:
+            unit = (parameter.upper - parameter.lower) / np.sqrt(12)
+            place = r.hypothesis.constants + k
+            found[parameter.name] = float(unit * np.sqrt(max(covariance[place, place], 0.0)))
+    return found
+
+
+def _equivalent(candidate: Candidate, features: Sequence[Feature], angle: float) -> tuple[float, ...]:
+    """Angles that the measured splits do not tell apart: the orders' common period."""
+    orders = {
+        f.key[0]
+        for f in features
+        if f.kind == "split" and f.key and f.sd < 0.5 and abs(f.measured) > TOLD * f.sd
+    }
+    period = next(p.upper - p.lower for p in candidate.parameters if p.name == "angle_rad")
+    repeats = int(np.gcd.reduce([2 * r for r in orders])) if orders else 1
+    if period < 2 * np.pi - 1e-9:
+        return (round(float(np.rad2deg(angle)), 3),)
+    turns = (angle + 2 * np.pi * np.arange(repeats) / repeats) % (2 * np.pi)
+    return tuple(round(float(a), 3) for a in np.rad2deg(turns))

@@ -1,0 +1,34 @@
+"""From the weights of all steps to the densities of a step's regions, and what is known of those."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from statorhom.materials.density import Weighing, densities
+from statorhom.study.study import StudyFiles
+
+# A stack of electrical steel: sheets of 7600 … 7850 kg/m³ at usual stacking factors.
+LAMINATION_DENSITY, LAMINATION_DENSITY_SD = 7700.0, 90.0  # kg/m³
+
+
+def stage_densities(
+    files: StudyFiles, masses_kg: Mapping[str, float], index: int, volumes: Mapping[str, float]
+) -> dict[str, float]:
+    """Region → density (kg/m³) after a step.
+
+    Parameters
+    ----------
+    files : the study.
+    masses_kg : stage → weight.
+    index : number of the step.
+    volumes : region → volume (m³) at this step.
+
+    Raises
+    ------
+    MassError
+        If a step loses mass.
+    """
+    weighings: Sequence[Weighing] = [
+        Weighing(s.name, s.kind, masses_kg[s.name], s.mass_sd_kg) for s in files.study.stages[: index + 1]
+    ]
+    return {d.region: d.density_kg_m3 for d in densities(weighings, volumes)}

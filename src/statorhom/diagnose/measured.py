@@ -1,0 +1,98 @@
+"""What one test measured, as the diagnosis sees it: modes, doublets with their angles, pole shifts along the axis."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from statorhom.study.modal_table import MeasuredMode
+
+
+@dataclass(frozen=True)
+class MeasuredSplit:
+    """Two modes of one doublet.
+
+    Parameters
+    ----------
+    lower, upper : labels of the modes.
+    relative : complex split b_r over the mean λ (`statorhom.modes.doublets.complex_split`).
+    sd : standard deviation of its real and of its imaginary part.
+    """
+
+    lower: str
+    upper: str
+    relative: complex
+    sd: float
+
+
+@dataclass(frozen=True, eq=False)
+class PlaneShifts:
+    """Relative shifts of a mode's pole from plane to plane, averaged around the circumference.
+
+    Parameters
+    ----------
+    label : of the mode.
+    z_m : (p,) planes.
+    shift, sd : (p,) against the mean over all planes.
+    """
+
+    label: str
+    z_m: np.ndarray
+    shift: np.ndarray
+    sd: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Sideband:
+    """Other orders in a mode's shape, relative to its own (`statorhom.modes.shape_features`).
+
+    Parameters
+    ----------
+    label : of the mode.
+    order, angle_rad : of the mode itself.
+    cosine, sine : (2, orders) even and odd along the axis.
+    sd : (2, orders).
+    z_m : (p,) planes of the points.
+    """
+
+    label: str
+    order: int
+    angle_rad: float
+    cosine: np.ndarray
+    sine: np.ndarray
+    sd: np.ndarray
+    z_m: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredTest:
+    """One test.
+
+    Parameters
+    ----------
+    stage : number of the stage.
+    name, support : of the test.
+    modes : all modes, by frequency.
+    recorded : whether shapes were seen, so that names and angles are the program's own.
+    splits, shifts, sidebands : what the shapes told.
+    """
+
+    stage: int
+    name: str
+    support: str
+    modes: tuple[MeasuredMode, ...]
+    recorded: bool = False
+    splits: tuple[MeasuredSplit, ...] = ()
+    shifts: tuple[PlaneShifts, ...] = ()
+    sidebands: tuple[Sideband, ...] = ()
+
+    def named(self, names: Mapping[tuple[str, str], tuple[int, int]]) -> tuple[MeasuredMode, ...]:
+        """The modes with some names corrected: (test, label) → (r, n)."""
+        return tuple(
+            replace(mode, order=names[self.name, mode.label][0], axial=names[self.name, mode.label][1])
+            if (self.name, mode.label) in names
+            else mode
+            for mode in self.modes
+        )

@@ -1,0 +1,173 @@
+"""Predicted modes of a test under constants and what a hypothesis changes, with their derivatives."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from statorhom.diagnose.broken_response import Response, responses
+from statorhom.diagnose.dimension_response import dimension_shift
+from statorhom.diagnose.stage_model import StageModel
+from statorhom.diagnose.study_model import StudyModel
+from statorhom.materials.hooke import Hooke
+from statorhom.model.affine import Material, Materials, hooke_coefficients
+from statorhom.model.convergence import ModeKey, mode_keys
+from statorhom.model.stator_mode import StatorMode
+from statorhom.physics.action import Action
+
+KEPT = 32  # responses per stage
+RATE_HZ = (
+    400.0,
+    1000.0,
+    2500.0,
+    6000.0,
+    15000.0,
+)  # between which a modulus that follows the frequency is interpolated
+
+
+@dataclass(frozen=True, eq=False)
+class PredictedMode:
+    """One named mode.
+
+    Parameters
+    ----------
+    key : its name and rank.
+    mode : of the symmetric stator.
+    log_f : ln of its frequency (Hz), mesh factor and shifts included.
+    split : complex relative split of λ by the hypothesis, without scatter.
+    shared : relative standard deviation that one unit of the stage's mesh coordinate stands for.
+    """
+
+    key: ModeKey
+    mode: StatorMode
+    log_f: float
+    split: complex
+    shared: float
+
+    @property
+    def frequency_hz(self) -> float:
+        return float(np.exp(self.log_f))
+
+    @property
+    def order(self) -> int | None:
+        return self.mode.order
+
+    @property
+    def axial(self) -> int | None:
+        return self.mode.axial
+
+    @property
+    def kind(self) -> str:
+        return self.mode.kind
+
+    @property
+    def visibility(self) -> float:
+        return min(1.0, self.mode.visibility / 0.05)
+
+    @property
+    def multiplicity(self) -> int:
+        return self.mode.multiplicity
+
+
+def acted_materials(
+    study: StudyModel,
+    stage: StageModel,
+    values: Mapping[str, float],
+    actions: Sequence[Action],
+    test: str | None = None,
+) -> Materials:
+    """Materials of a test under the hypothesis.
+
+    Raises
+    ------
+    MassError, MaterialError
+        If no material has these constants.
+    """
+    corrected: dict[str, float] = {}
+    for action in actions:
+        corrected |= dict(action.masses)
+    materials = study.materials(stage, values, study.masses(values, corrected))
+    for action in actions:
+        if action.materials is not None and action.touches(stage.name, test):
+            materials = action.materials(materials)
+    return materials
+
+
+def material_vector(materials: Materials, regions: Sequence[str]) -> np.ndarray:
+    """Nine Hooke entries and the density of every region, one after the other."""
+    return np.concatenate(
+        [np.r_[hooke_coefficients(materials[r].hooke), materials[r].density] for r in regions]
+    )
+
+
+def predicted(
+    study: StudyModel,
+    stage: StageModel,
+    values: Mapping[str, float],
+    actions: Sequence[Action],
+    test: str | None = None,
+    mark: Hashable = None,
+) -> dict[ModeKey, PredictedMode]:
+    """Named modes of a free test, by key; equal marks say that the actions are the same."""
+    materials = acted_materials(study, stage, values, actions, test)
+    here = [a for a in actions if a.touches(stage.name, test)]
+    rates = [a for a in here if a.modulus_at]
+    logs = _rated(stage, materials, rates[0]) if rates else _plain(stage, materials)
+    shifts = broken_responses(stage, here, None if mark is None else (test, mark))
+    mesh = values[f"{stage.name}:mesh"]
+    found = {}
+    for key, (mode, log_f) in logs.items():
+        shared = stage.error.shared(key)
+        total = log_f + np.log(stage.error.factor(key)) + mesh * shared
+        total += sum(dimension_shift(study, stage, a.dimensions, key) for a in here if a.dimensions)
+        response = shifts.get(key, Response(0.0, 0j))
+        found[key] = PredictedMode(key, mode, float(total + response.shift), response.split, shared)
+    return found
+
+
+def broken_responses(
+    stage: StageModel, actions: Sequence[Action], mark: Hashable = None
+) -> Mapping[ModeKey, Response]:
+    """Shifts and splits by all that breaks the symmetry; those of a few marks are kept."""
+    if not any(a.changes for a in actions):
+        return {}
+    known = stage.kept_responses
+    if mark is None or mark not in known:
+        changes = [c for a in actions if a.changes for c in a.changes(stage.model.mesh, stage.reference)]
+        found = responses(stage, changes)
+        if mark is None:
+            return found
+        while len(known) >= KEPT:
+            known.pop(next(iter(known)))
+        known[mark] = found
+    return known[mark]
+
+
+def _plain(stage: StageModel, materials: Materials) -> dict[ModeKey, tuple[StatorMode, float]]:
+    modes = mode_keys(stage.solve(materials).modes)
+    return {key: (mode, float(np.log(mode.frequency_hz))) for key, mode in modes.items()}
+
+
+def _rated(
+    stage: StageModel, materials: Materials, action: Action
+) -> dict[ModeKey, tuple[StatorMode, float]]:
+    """Modes of a stator whose moduli follow the frequency: f with f = f(moduli at f), interpolated in ln f."""
+    trial = np.log(RATE_HZ)
+    tables = []
+    for rate in RATE_HZ:
+        scaled = {
+            r: Material(Hooke(action.modulus_at[r](rate) * m.hooke.matrix), m.density)
+            if r in action.modulus_at
+            else m
+            for r, m in materials.items()
+        }
+        tables.append(mode_keys(stage.solve(scaled).modes))
+    found = {}
+    for key, mode in tables[1].items():
+        if all(key in table for table in tables):
+            logs = np.log([table[key].frequency_hz for table in tables])
+            # f(trial) - trial falls: it crosses zero once
+            found[key] = (mode, float(np.interp(0.0, (trial - logs), logs)))
+    return found

@@ -1,0 +1,118 @@
+"""Least squares with priors: Levenberg–Marquardt on a hypothesis, and the evidence at its optimum."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.errors import StatorhomError
+
+FloatArray = npt.NDArray[np.float64]
+ROUNDS = 2  # of pairing anew
+ITERATIONS = 12
+SETTLED = 0.05  # decrease of the objective that no longer matters
+LARGEST_STEP = 2.0  # in prior standard deviations
+
+
+@dataclass(frozen=True, eq=False)
+class Refit:
+    """A hypothesis at its optimum.
+
+    Parameters
+    ----------
+    hypothesis : pairing held.
+    z : optimum.
+    jacobian : of the residuals there.
+    misfit : sum of squared residuals.
+    objective : with the prior.
+    """
+
+    hypothesis: Hypothesis
+    z: FloatArray
+    jacobian: FloatArray
+    misfit: float
+    objective: float
+
+    @property
+    def precision(self) -> FloatArray:
+        """Hessian of half the objective."""
+        return self.jacobian.T @ self.jacobian + np.diag(self.hypothesis.prior_weights)
+
+    @property
+    def covariance(self) -> FloatArray:
+        """Of all coordinates."""
+        spread = self.precision + 1e-9 * np.eye(len(self.z))
+        return np.asarray(np.linalg.inv(spread))
+
+    @property
+    def log_evidence(self) -> float:
+        """Laplace's, up to what all hypotheses share."""
+        weights = self.hypothesis.prior_weights
+        uniform = float(np.sum(weights == 0.0))
+        _, logdet = np.linalg.slogdet(self.precision + 1e-6 * np.diag(1.0 - weights))
+        # a uniform coordinate has the density 1/√12 over its range in internal units
+        return -0.5 * self.objective - 0.5 * float(logdet) + uniform * 0.5 * float(np.log(2 * np.pi / 12))
+
+
+def refit(hypothesis: Hypothesis, start: FloatArray, rounds: int = ROUNDS) -> Refit:
+    """The nearest optimum.
+
+    Raises
+    ------
+    StatorhomError
+        If no stator has the constants of the start.
+    """
+    z, best = start, None
+    for _ in range(rounds):
+        paired = hypothesis.paired(z)
+        found = _polished(paired, z)
+        changed = best is None or found.hypothesis.held != best.hypothesis.held
+        if best is None or found.objective < best.objective - SETTLED or changed:
+            best, z = found, found.z
+        if not changed:
+            break
+    assert best is not None
+    return best
+
+
+def _polished(hypothesis: Hypothesis, z: FloatArray) -> Refit:
+    weights, (low, high) = hypothesis.prior_weights, hypothesis.limits()
+    z = np.clip(z, low, high)
+    residuals = hypothesis.residuals(z)
+    objective = _objective(residuals, z, weights)
+    damping = 1e-3
+    J = hypothesis.jacobian(z)
+    for _ in range(ITERATIONS):
+        gradient = J.T @ residuals + weights * z
+        H = J.T @ J + np.diag(weights)
+        improved = False
+        for _ in range(6):
+            step = -np.linalg.solve(H + damping * np.diag(np.diag(H) + 1e-6), gradient)
+            step *= min(1.0, LARGEST_STEP / max(float(np.abs(step).max()), 1e-12))
+            trial = np.clip(z + step, low, high)
+            try:
+                new = hypothesis.residuals(trial)
+            except (StatorhomError, KeyError):
+                damping = max(10 * damping, 1e-2)
+                continue
+            value = _objective(new, trial, weights)
+            if len(new) == len(residuals) and value < objective:
+                improved = True
+                break
+            damping = max(10 * damping, 1e-2)
+        if not improved:
+            break
+        gain = objective - value
+        z, residuals, objective = trial, new, value
+        damping = damping / 10
+        J = hypothesis.jacobian(z)
+        if gain < SETTLED:
+            break
+    return Refit(hypothesis, z, J, float(residuals @ residuals), objective + hypothesis.missed)
+
+
+def _objective(residuals: FloatArray, z: FloatArray, weights: FloatArray) -> float:
+    return float(residuals @ residuals + np.sum(weights * z**2))

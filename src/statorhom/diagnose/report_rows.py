@@ -1,0 +1,174 @@
+"""From explanations to the rows of diagnosis.json."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from statorhom.diagnose.explanations import Explanation
+from statorhom.diagnose.features import Feature
+from statorhom.diagnose.location import located
+from statorhom.diagnose.refit import Refit
+from statorhom.physics.library import library
+from statorhom.physics.parameter import EffectParameter
+from statorhom.results.diagnosis import (
+    ConstantRow,
+    EffectResult,
+    Errors,
+    Estimated,
+    FeatureRow,
+    Mismatch,
+)
+
+Z90 = 1.6448536269514722
+REMARKABLE = 3.0  # standard deviations
+MOST_MODES = 8
+
+
+def effect_results(explanation: Explanation, probability: float) -> tuple[EffectResult, ...]:
+    """The explanation's effects as the file names them."""
+    r = explanation.refit
+    found = []
+    for number, (candidate, values) in enumerate(
+        zip(explanation.candidates, r.hypothesis.effect_values(r.z), strict=True)
+    ):
+        effect = library()[candidate.effect]
+        intervals = _intervals(explanation, number)
+        parameters: dict[str, Estimated | float | str] = {}
+        for name, value in effect.reported(candidate, values).items():
+            known = intervals.get(name)
+            parameters[name] = value if known is None else Estimated(value=value, ci90=known)
+        found.append(
+            EffectResult(
+                effect=candidate.effect,
+                stage=candidate.stage,
+                region=candidate.region,
+                test=candidate.test,
+                location=located(explanation, number),
+                parameters=parameters,
+                probability=probability,
+                note=effect.note,
+            )
+        )
+    return tuple(found)
+
+
+def _intervals(explanation: Explanation, number: int) -> dict[str, tuple[float, float]]:
+    """90 % intervals of the magnitudes."""
+    r = explanation.refit
+    covariance = r.covariance
+    found = {}
+    for k, (i, j) in enumerate(r.hypothesis.parameters):
+        parameter: EffectParameter = r.hypothesis.candidates[i].parameters[j]
+        if i == number and not parameter.located:
+            place = r.hypothesis.constants + k
+            spread = Z90 * float(np.sqrt(covariance[place, place]))
+            low, high = (parameter.value(r.z[place] + sign * spread) for sign in (-1, 1))
+            found[parameter.name] = (low, high)
+    return found
+
+
+def frequency_errors(r: Refit) -> Errors:
+    """Of the modes that have a partner, in percent."""
+    errors = [
+        100 * abs(f.measured - f.predicted)
+        for f in r.hypothesis.features(r.z)
+        if f.kind == "frequency" and f.key is not None
+    ]
+    if not errors:
+        return Errors(rms_percent=0.0, max_percent=0.0)
+    return Errors(rms_percent=float(np.sqrt(np.mean(np.square(errors)))), max_percent=float(max(errors)))
+
+
+def mismatch(base: Refit) -> Mismatch | None:
+    """The test that the declared model meets worst, and its modes."""
+    features = [f for f in base.hypothesis.features(base.z) if f.test]
+    tests = {t.name: s.name for s in base.hypothesis.study.stages for t in s.tests}
+    if not features:
+        return None
+    cost: dict[str, float] = {}
+    for f in features:
+        cost[f.test] = cost.get(f.test, 0.0) + f.residual**2
+    worst = max(cost, key=lambda t: cost[t])
+    odd = sorted(
+        (f for f in features if f.test == worst and abs(f.residual) > REMARKABLE),
+        key=lambda f: -abs(f.residual),
+    )
+    modes = tuple(dict.fromkeys((f.key[0], f.key[1]) for f in odd if f.key is not None))[:MOST_MODES]
+    lost = sum(f.key is None for f in odd)
+    return Mismatch(stage=tests[worst], test=worst, modes=modes, statement=_statement(worst, odd, lost))
+
+
+def _statement(test: str, odd: Sequence[Feature], lost: int) -> str:
+    if not odd:
+        return "the declared model meets every measured mode within its uncertainty"
+    parts = []
+    frequency = [f for f in odd if f.kind == "frequency" and f.key is not None]
+    if frequency:
+        f = frequency[0]
+        assert f.key is not None
+        error = 100 * (np.exp(f.predicted - f.measured) - 1)
+        parts.append(
+            f"{len(frequency)} frequencies are off, ({f.key[0]}, {f.key[1]}) by {error:+.2f} % "
+            f"({abs(f.residual):.0f} standard deviations)"
+        )
+    splits = {f.key for f in odd if f.kind == "split"}
+    if splits:
+        parts.append(f"{len(splits)} doublets are split otherwise than predicted")
+    if any(f.kind == "shift" for f in odd):
+        parts.append("poles move from measuring plane to measuring plane")
+    if lost:
+        parts.append(f"{lost} modes have no partner")
+    return f"{test}: {'; '.join(parts)}"
+
+
+def feature_rows(base: Refit, best: Refit) -> tuple[FeatureRow, ...]:
+    """All features that both have, measured and predicted."""
+    stages = {t.name: s.name for s in base.hypothesis.study.stages for t in s.tests}
+    after: dict[tuple[str, object, str], list[Feature]] = {}
+    for f in best.hypothesis.features(best.z):
+        after.setdefault((f.test, f.key, f.kind), []).append(f)
+    rows = []
+    for f in base.hypothesis.features(base.z):
+        same = after.get((f.test, f.key, f.kind))
+        if f.key is None or not same:
+            continue
+        twin = same.pop(0)
+        rows.append(
+            FeatureRow(
+                stage=stages[f.test],
+                test=f.test,
+                mode=(f.key[0], f.key[1]),
+                kind=f.kind,
+                measured=f.measured,
+                before=f.predicted,
+                after=twin.predicted,
+                sd=f.sd,
+            )
+        )
+    return tuple(rows)
+
+
+def constant_rows(base: Refit, best: Refit) -> tuple[ConstantRow, ...]:
+    """Material constants and weights before and after."""
+    n = base.hypothesis.constants
+    before, after = (np.sqrt(np.diag(r.covariance))[:n] for r in (base, best))
+    rows = []
+    for k, c in enumerate(base.hypothesis.study.constants.items):
+        if "." not in c.name and not c.name.endswith("mass_kg"):
+            continue
+        spread = [
+            0.5 * abs(c.value(r.z[k] + s[k]) - c.value(r.z[k] - s[k]))
+            for r, s in ((base, before), (best, after))
+        ]
+        rows.append(
+            ConstantRow(
+                name=c.name,
+                before=c.value(base.z[k]),
+                before_sd=spread[0],
+                after=c.value(best.z[k]),
+                after_sd=spread[1],
+            )
+        )
+    return tuple(rows)

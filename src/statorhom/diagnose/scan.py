@@ -1,0 +1,148 @@
+"""Projected signature scan: how much of the misfit each effect would take away, constants refitted.
+
+For every candidate and place g is the change of all residuals by the effect at a typical magnitude; whitened and with
+the refittable constants projected out it gives T = (gᵀPr)²/(gᵀPg) (physics.md §7). The distribution of the largest T
+when nothing is missing comes from draws of noise and constants that are refitted the same way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+import numpy.typing as npt
+
+from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.study_model import StudyModel
+from statorhom.errors import StatorhomError
+from statorhom.physics.candidate import Candidate
+from statorhom.physics.parameter import EffectParameter
+
+FloatArray = npt.NDArray[np.float64]
+ANGLES_PER_ORDER = 5  # places per half wave of the highest split order
+HEIGHTS = (0.15, 0.5, 0.85)  # of the core's length
+DRAWS = 4000
+INVISIBLE = 1e-6  # of a signature's square that the constants leave: none that could be told
+
+
+@dataclass(frozen=True, eq=False)
+class Signature:
+    """One candidate at one place and start.
+
+    Parameters
+    ----------
+    candidate : the effect.
+    start : internal coordinates of its parameters.
+    change : (features + constants,) of the augmented residuals, constants projected out, of unit length.
+    strength : length before, in standard deviations.
+    gain : T, one-sided: 0 where the misfit asks for the opposite of the effect.
+    """
+
+    candidate: Candidate
+    start: FloatArray
+    change: FloatArray
+    strength: float
+    gain: float
+
+
+@dataclass(frozen=True, eq=False)
+class Scan:
+    """All signatures, the best first, and the chance of the best if nothing is missing."""
+
+    signatures: tuple[Signature, ...]
+    p_value: float
+
+    def worth_refitting(self, most: int, least_gain: float) -> tuple[Signature, ...]:
+        """The best signature of every candidate that gains enough; every effect's best one comes first."""
+        best: dict[str, Signature] = {}
+        for signature in self.signatures:
+            if signature.gain >= least_gain:
+                best.setdefault(signature.candidate.label, signature)
+        leaders = {s.candidate.effect: s.candidate.label for s in reversed(list(best.values()))}
+        first = [s for label, s in best.items() if label in leaders.values()]
+        rest = [s for label, s in best.items() if label not in leaders.values()]
+        return tuple([*first, *rest][: max(most, len(first))])
+
+
+def scan(base: Refit, candidates: Sequence[Candidate], seed: int) -> Scan:
+    """Signatures of all candidates at the declared model's optimum.
+
+    Parameters
+    ----------
+    base : the declared model.
+    candidates : with parameters; discrete ones change the pairing and are tried by refits alone.
+    seed : of the draws.
+    """
+    residuals = np.r_[base.hypothesis.residuals(base.z), base.z]
+    J = np.vstack([base.jacobian, np.eye(len(base.z))])
+    q, _ = np.linalg.qr(J)
+    found = []
+    for candidate in candidates:
+        for start in starts(base.hypothesis.study, candidate):
+            change = _change(base, candidate, start)
+            if change is None:
+                continue
+            change = np.r_[change, np.zeros(len(base.z))]
+            total = float(change @ change)
+            change = change - q @ (q.T @ change)
+            left = float(change @ change)
+            if left > max(INVISIBLE * total, 1e-8):
+                unit = change / np.sqrt(left)
+                # the effect takes away what its signature shares with the misfit, with the opposite sign
+                gain = max(0.0, -float(unit @ residuals)) ** 2
+                found.append(Signature(candidate, start, unit, float(np.sqrt(left)), gain))
+    found.sort(key=lambda s: -s.gain)
+    return Scan(tuple(found), _p_value(found, q, seed))
+
+
+def _p_value(signatures: Sequence[Signature], q: FloatArray, seed: int) -> float:
+    """Chance of so large a maximum under noise and prior alone."""
+    if not signatures:
+        return 1.0
+    units = np.array([s.change for s in signatures])
+    rng = np.random.default_rng(seed)
+    noise = rng.standard_normal((q.shape[0], DRAWS))
+    noise -= q @ (q.T @ noise)
+    largest = np.max(np.maximum(-units @ noise, 0.0), axis=0) ** 2
+    return float((1 + np.count_nonzero(largest >= signatures[0].gain)) / (1 + DRAWS))
+
+
+def starts(study: StudyModel, candidate: Candidate) -> list[FloatArray]:
+    """Internal coordinates at all combinations of magnitudes and places."""
+    choices = [_choices(study, p) for p in candidate.parameters]
+    return [np.array(point) for point in product(*choices)]
+
+
+def _choices(study: StudyModel, parameter: EffectParameter) -> list[float]:
+    if parameter.scale == "angle":
+        period = parameter.upper - parameter.lower
+        split = [t for stage in study.stages for t in stage.tests if t.splits]
+        if not split and all(test.support == "free" for stage in study.stages for test in stage.tests):
+            return [parameter.internal(0.0)]  # nothing that was measured tells angles
+        highest = max((m.order or 0 for t in split for m in t.modes), default=4)
+        # doublets do not tell half a turn
+        half = min(period, np.pi)
+        count = max(4, int(np.ceil(ANGLES_PER_ORDER * max(highest, 2) * half / np.pi)))
+        return [parameter.internal(half * k / count) for k in range(count)]
+    if parameter.scale == "place":
+        return [
+            parameter.internal(parameter.lower + h * (parameter.upper - parameter.lower)) for h in HEIGHTS
+        ]
+    return [parameter.internal(value) for value in parameter.starts]
+
+
+def _change(base: Refit, candidate: Candidate, start: FloatArray) -> FloatArray | None:
+    """Residuals with the effect minus those without, pairing held; None where it changes who is whose partner."""
+    hypothesis = base.hypothesis
+    acted = Hypothesis(
+        hypothesis.study, (candidate,), hypothesis.left_out, hypothesis.held, hypothesis.missed
+    )
+    try:
+        with_effect = acted.residuals(np.r_[base.z, start])
+    except (StatorhomError, KeyError):
+        return None
+    without = hypothesis.residuals(base.z)
+    return with_effect - without if len(with_effect) == len(without) else None

@@ -1,0 +1,177 @@
+"""One tested step of a study with all that its predictions need."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.ring_basis import RingBasis, RingModes, ring_basis
+from statorhom.identify.model_error import ModelError
+from statorhom.identify.stage_setup import StageSetup
+from statorhom.mesh.density import MeshDensity
+from statorhom.mesh.extrude import mesh_step
+from statorhom.model.affine import AffineModel, Materials, assemble
+from statorhom.model.broken.basis import SymmetricBasis, symmetric_basis
+from statorhom.model.convergence import ModeKey, converge, mode_keys
+from statorhom.model.free_modes import FreeModes, problem_at
+from statorhom.model.radial_profile import radial_profile
+from statorhom.model.stator_mode import StatorMode
+
+BAND = 1.12  # predictions reach this much higher than the highest measured mode
+BROKEN_MARGIN = 1.25
+MOST = 6  # modes of a harmonic problem on it
+FINER = 1.5  # second mesh of the extrapolation
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Where a symmetric mode stands among a basis's coordinates; `sine` is None for single modes."""
+
+    cosine: int
+    sine: int | None
+    eigenvalue: float
+
+
+@dataclass(frozen=True, eq=False)
+class StageModel:
+    """A step on its mesh.
+
+    Parameters
+    ----------
+    setup : geometry, regions, tests.
+    tests : what was measured.
+    ring : the symmetric stator near the materials that matter.
+    reference : materials at which broken symmetry and mesh factors are computed.
+    error : mesh factors.
+    density : of the mesh.
+    """
+
+    setup: StageSetup
+    tests: tuple[MeasuredTest, ...]
+    ring: RingBasis
+    reference: Materials
+    error: ModelError
+    density: MeshDensity
+    _last: dict[bytes, RingModes] = field(default_factory=dict, repr=False)
+    kept_responses: dict[Hashable, Any] = field(default_factory=dict, repr=False)
+    _slopes: dict[int, dict[ModeKey, np.ndarray]] = field(default_factory=dict, repr=False)
+
+    @property
+    def name(self) -> str:
+        """Of the stage."""
+        return self.setup.keys.name
+
+    @property
+    def model(self) -> AffineModel:
+        """The mesh's matrices."""
+        return self.ring.model
+
+    @property
+    def orders(self) -> tuple[int, ...]:
+        """Harmonics that are predicted."""
+        return tuple(sorted({p.space.order for p in self.ring.problems}))
+
+    def solve(self, materials: Materials) -> RingModes:
+        """Symmetric modes; the last materials' are kept."""
+        mark = b"".join(
+            m.hooke.matrix.tobytes() + np.float64(m.density).tobytes() for m in materials.values()
+        )
+        if mark not in self._last:
+            if len(self._last) > 64:
+                self._last.clear()
+                self._slopes.clear()
+            self._last[mark] = self.ring.solve(materials)
+        return self._last[mark]
+
+    @cached_property
+    def broken(self) -> SymmetricBasis:
+        """Modes of all harmonics at the reference, for what breaks the symmetry."""
+        return symmetric_basis(self.model, self.reference, self.ring.highest_hz, margin=BROKEN_MARGIN)
+
+    @cached_property
+    def reference_keys(self) -> Mapping[ModeKey, StatorMode]:
+        """Modes at the reference by name."""
+        return mode_keys(self.solve(self.reference).modes)
+
+    @cached_property
+    def columns(self) -> Mapping[ModeKey, Columns]:
+        """Where the named modes of the reference stand in the broken basis."""
+        found = {key: _place(self.ring, self.broken, mode) for key, mode in self.reference_keys.items()}
+        return {key: place for key, place in found.items() if place is not None}
+
+    @cached_property
+    def amplitudes(self) -> Mapping[ModeKey, tuple[np.ndarray, np.ndarray]]:
+        """Heights (m) and radial antinode amplitudes (1/√kg) of the named modes at the reference."""
+        planes, solved = radial_profile(self.model.mesh).planes, self.solve(self.reference)
+        return {
+            key: (planes, self.ring.problems[m.problem].profile @ solved.vectors[m.problem][:, m.column])
+            for key, m in self.reference_keys.items()
+        }
+
+    def slopes(self, materials: Materials, keys: Iterable[ModeKey]) -> dict[ModeKey, np.ndarray]:
+        """d ln f by the Hooke entries and the density of all regions, one after the other."""
+        solved = self.solve(materials)
+        known = self._slopes.setdefault(id(solved), {})
+        modes = mode_keys(solved.modes)
+        for key in keys:
+            if key not in known and key in modes:
+                gradient = solved.log_frequency_gradient(modes[key])
+                known[key] = np.concatenate([np.r_[gradient[r][0], gradient[r][1]] for r in materials])
+        return {key: known[key] for key in keys if key in known}
+
+
+def stage_model(
+    setup: StageSetup, tests: Sequence[MeasuredTest], snapshots: Sequence[Materials], density: MeshDensity
+) -> StageModel:
+    """A stage at the first of some materials, good near all of them; no mesh factors yet."""
+    assert setup.step is not None
+    model = assemble(mesh_step(setup.step, density))
+    top = BAND * max(mode.frequency_hz for test in tests for mode in test.modes)
+    named = [m.order for test in tests for m in test.modes if m.order is not None]
+    highest = min(max([*named, 3]) + 1, model.mesh.slots // 2)
+    ring = ring_basis(model, snapshots, top, range(highest + 1))
+    return StageModel(setup, tuple(tests), ring, snapshots[0], ModelError(), density)
+
+
+def mesh_error(setup: StageSetup, ring: RingBasis, materials: Materials, density: MeshDensity) -> ModelError:
+    """Mesh factors from two meshes at given materials."""
+    assert setup.step is not None
+    finer = assemble(mesh_step(setup.step, density.refined(FINER)))
+    orders = sorted({m.order for t in setup.tests for m in t.modes if m.order} or {2, 3, 4})
+    fine = problem_at(finer, materials).solve(ring.highest_hz, orders, MOST)
+    coarse = FreeModes(ring.solve(materials).modes, (), (), ())
+    found = converge([1.0, 1 / FINER], [ring.model.mesh.full_dof, finer.mesh.full_dof], [coarse, fine])
+    return ModelError(
+        factors={c.key: c.factor for c in found}, corrections={c.key: c.factor - 1.0 for c in found}
+    )
+
+
+def with_reference(stage: StageModel, materials: Materials) -> StageModel:
+    """The stage at another reference, its mesh factors kept."""
+    return replace(
+        stage,
+        ring=stage.ring.extended([materials]),
+        reference=materials,
+        _last={},
+        _slopes={},
+        kept_responses={},
+    )
+
+
+def _place(ring: RingBasis, basis: SymmetricBasis, mode: StatorMode) -> Columns | None:
+    space = ring.problems[mode.problem].space
+    value = (2 * np.pi * mode.frequency_hz) ** 2
+    for problem, place in zip(basis.problems, basis.places, strict=True):
+        own = problem.sector.space
+        if (own.order, own.parity, own.axial) != (space.order, space.parity, space.axial):
+            continue
+        nearest = int(np.argmin(np.abs(problem.values - value)))
+        sine = place[True].start + nearest if True in place and False in place else None
+        first = place[False] if False in place else place[True]
+        return Columns(first.start + nearest, sine, float(problem.values[nearest]))
+    return None
