@@ -19,16 +19,31 @@ ANY_MESH = uniform()
 RING = {
     "schema": 1,
     "name": "ring",
-    "core": {"outer_diameter_mm": 120.0, "bore_diameter_mm": 90.0, "length_mm": 60.0, "yoke_thickness_mm": 15.0},
+    "core": {
+        "outer_diameter_mm": 120.0,
+        "bore_diameter_mm": 90.0,
+        "length_mm": 60.0,
+        "yoke_thickness_mm": 15.0,
+    },
     "slots": {"shape": "none", "count": 12},
 }
 SLOTTED = {
     **RING,
     "name": "slotted",
-    "core": {"outer_diameter_mm": 120.0, "bore_diameter_mm": 70.0, "length_mm": 80.5, "yoke_thickness_mm": 9.15},
+    "core": {
+        "outer_diameter_mm": 120.0,
+        "bore_diameter_mm": 70.0,
+        "length_mm": 80.5,
+        "yoke_thickness_mm": 9.15,
+    },
     "slots": {"shape": "parallel_tooth", "count": 12, "tooth_width_mm": 9.0},
     "winding": {"overhang_length_mm": 25.0},
-    "frame": {"inner_diameter_mm": 120.0, "outer_diameter_mm": 130.0, "length_mm": 120.0, "offset_mm": -19.75},
+    "frame": {
+        "inner_diameter_mm": 120.0,
+        "outer_diameter_mm": 130.0,
+        "length_mm": 120.0,
+        "offset_mm": -19.75,
+    },
 }
 CLAMP = {"name": "clamped", "kind": "lines", "angles_deg": [158.0, 202.0], "declared": "rigid"}
 
@@ -42,7 +57,14 @@ def stage(kind: str, tests: list[dict[str, object]], mass_kg: float) -> dict[str
     """Keys of a stage."""
     region = {"stack": "lamination", "framed": "frame"}.get(kind, "winding")
     model = {region: "isotropic" if kind == "framed" else "transversely_isotropic"}
-    return {"name": kind, "kind": kind, "mass_kg": mass_kg, "mass_sd_kg": 0.002, "model": model, "tests": tests}
+    return {
+        "name": kind,
+        "kind": kind,
+        "mass_kg": mass_kg,
+        "mass_sd_kg": 0.002,
+        "model": model,
+        "tests": tests,
+    }
 
 
 def study_keys(stages: list[dict[str, object]], **keys: object) -> dict[str, object]:

@@ -76,7 +76,9 @@ class BlindCase:
 def blind_cases(count: int | None = None) -> tuple[BlindCase, ...]:
     """The first `count` cases, all by default; any beginning of the list holds all groups in about equal shares."""
     groups = [_singles(), _nothing(), _outside(), _doubles(), _ambiguous()]
-    placed = [((i + 0.5) / len(group), g, row) for g, group in enumerate(groups) for i, row in enumerate(group)]
+    placed = [
+        ((i + 0.5) / len(group), g, row) for g, group in enumerate(groups) for i, row in enumerate(group)
+    ]
     rows = [row for _, _, row in sorted(placed, key=lambda p: p[:2])]
     cases = []
     for number, row in enumerate(rows[:count], start=1):
@@ -85,7 +87,9 @@ def blind_cases(count: int | None = None) -> tuple[BlindCase, ...]:
     return tuple(cases)
 
 
-def _row(group: str, effects: tuple[str, ...], template: str, tables: bool, strength: float) -> dict[str, object]:
+def _row(
+    group: str, effects: tuple[str, ...], template: str, tables: bool, strength: float
+) -> dict[str, object]:
     return {"group": group, "effects": effects, "template": template, "tables": tables, "strength": strength}
 
 
@@ -106,7 +110,8 @@ def _singles() -> list[dict[str, object]]:
 
 def _nothing() -> list[dict[str, object]]:
     rows = [
-        _row("nothing", ("none",), NOTHING[i % len(NOTHING)], i // len(NOTHING) % 2 == 0, 0.5) | {"wide": True}
+        _row("nothing", ("none",), NOTHING[i % len(NOTHING)], i // len(NOTHING) % 2 == 0, 0.5)
+        | {"wide": True}
         for i in range(COUNTS["nothing"])
     ]
     return _mixed(rows, 2)
@@ -114,7 +119,9 @@ def _nothing() -> list[dict[str, object]]:
 
 def _outside() -> list[dict[str, object]]:
     rows = [
-        _row("outside", (OUTSIDE[i % len(OUTSIDE)],), "stack", i // len(OUTSIDE) % 2 == 0, STRENGTHS[i % 3 + 1])
+        _row(
+            "outside", (OUTSIDE[i % len(OUTSIDE)],), "stack", i // len(OUTSIDE) % 2 == 0, STRENGTHS[i % 3 + 1]
+        )
         for i in range(COUNTS["outside"])
     ]
     return _mixed(rows, 3)
@@ -130,7 +137,8 @@ def _doubles() -> list[dict[str, object]]:
 
 def _ambiguous() -> list[dict[str, object]]:
     rows = [
-        _row("ambiguous", (ALIKE[i % len(ALIKE)],), "stack", True, STRENGTHS[i % 3 + 1]) | {"highest_order": 2}
+        _row("ambiguous", (ALIKE[i % len(ALIKE)],), "stack", True, STRENGTHS[i % 3 + 1])
+        | {"highest_order": 2}
         for i in range(COUNTS["ambiguous"])
     ]
     return _mixed(rows, 5)

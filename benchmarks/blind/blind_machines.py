@@ -56,22 +56,29 @@ def _slot(shape: str, pitch_mm: float) -> dict[str, float]:
     if shape == "parallel_slot":
         return {"slot_width_mm": float(np.round(0.5 * pitch_mm, 2))}
     if shape == "semi_closed":
-        return {"tooth_width_mm": tooth, "opening_width_mm": float(np.round(0.25 * pitch_mm, 2)), "tip_height_mm": 0.9}
+        return {
+            "tooth_width_mm": tooth,
+            "opening_width_mm": float(np.round(0.25 * pitch_mm, 2)),
+            "tip_height_mm": 0.9,
+        }
     return {"tooth_width_mm": tooth}
 
 
-def study(template: str, geometry: Mapping[str, Any], seed: int) -> dict[str, Any]:
+def study(template: str, seed: int) -> dict[str, Any]:
     """Study file of a template: which steps and tests there are. The data that its tests name need not exist.
 
     Parameters
     ----------
     template : "stack", "clamped", "wound", "chain", "levels" or "framed".
-    geometry : contents of the machine's geometry file.
     seed : of the clamp's angles.
     """
     rng = np.random.default_rng([77, seed])
     first = float(np.round(rng.uniform(0, 360)))
-    kinds = {"wound": ("stack", "wound"), "chain": ("stack", "wound", "impregnated"), "framed": ("stack", "framed")}
+    kinds = {
+        "wound": ("stack", "wound"),
+        "chain": ("stack", "wound", "impregnated"),
+        "framed": ("stack", "framed"),
+    }
     table: dict[str, Any] = {"schema": 1, "name": template, "geometry": "geometry.toml"}
     if template == "clamped":
         angles = [first, first + float(np.round(rng.uniform(*CLAMP_DEG)))]
@@ -81,16 +88,18 @@ def study(template: str, geometry: Mapping[str, Any], seed: int) -> dict[str, An
         stages[0]["tests"].append({"name": "stack-clamped", "support": "clamped", "frf": "-.uff"})
     if template == "levels":
         stages[0]["tests"] = [
-            {"name": f"stack-{force:g}n", **FREE, "frf": "-.uff", "force_level_n": force} for force in FORCES_N
+            {"name": f"stack-{force:g}n", **FREE, "frf": "-.uff", "force_level_n": force}
+            for force in FORCES_N
         ]
-    del geometry
     return {**table, "stages": stages}
 
 
 def _stage(kind: str) -> dict[str, Any]:
     region = {"stack": "lamination", "framed": "frame"}.get(kind, "winding")
     symmetry = "isotropic" if kind == "framed" else TI
-    mass = 1.0 + ("stack", "wound", "impregnated", "framed").index(kind)  # typed anew when the truth is weighed
+    mass = 1.0 + ("stack", "wound", "impregnated", "framed").index(
+        kind
+    )  # typed anew when the truth is weighed
     return {
         "name": kind,
         "kind": kind,
@@ -106,5 +115,5 @@ def write_template(folder: Path, template: str, number: int, seed: int) -> Path:
     geometry = machine(number)
     stator_geometry(GeometryFile.model_validate(geometry), folder)
     write_text(folder / "geometry.toml", toml_text(geometry))
-    write_text(folder / "template.toml", toml_text(study(template, geometry, seed)))
+    write_text(folder / "template.toml", toml_text(study(template, seed)))
     return folder / "template.toml"

@@ -12,8 +12,9 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
+from itertools import repeat
 from pathlib import Path
 
 from blind_cases import BlindCase
@@ -52,9 +53,7 @@ def make(work: Work, case: BlindCase) -> str | None:
     if truth.exists():
         return None
     shutil.rmtree(folder, ignore_errors=True)
-    template = write_template(
-        work.folder / "templates" / case.name, case.template, case.machine, case.number
-    )
+    template = write_template(work.folder / "templates" / case.name, case.template, case.machine, case.number)
     wishes = [Wish(name, strength=case.strength) for name in case.effects]
     try:
         conceal_study(
@@ -80,11 +79,12 @@ def diagnose(work: Work, case: BlindCase) -> str | None:
     folder = work.run(case)
     if (folder / "run.json").exists() or not work.truth(case).exists():
         return None
-    command = [sys.executable, "-m", "statorhom", "diagnose", str(work.case(case) / "study.toml")]
+    command = [sys.executable, "-c", "from statorhom.cli import main; main()"]
+    options = ["diagnose", str(work.case(case) / "study.toml"), "--out", str(folder)]
     begin = time.perf_counter()
     try:
         done = subprocess.run(
-            [*command, "--out", str(folder), "--jobs", "1"], capture_output=True, text=True, timeout=PATIENCE_S
+            [*command, *options], capture_output=True, text=True, timeout=PATIENCE_S, check=False
         )
         code, message = done.returncode, done.stderr.strip().splitlines()[-1:]
     except subprocess.TimeoutExpired:
@@ -96,16 +96,13 @@ def diagnose(work: Work, case: BlindCase) -> str | None:
 
 
 def each(
-    what: str, function: Callable[[Work, BlindCase], str | None], work: Work, cases: Sequence[BlindCase], jobs: int
+    what: str,
+    function: Callable[[Work, BlindCase], str | None],
+    work: Work,
+    cases: Sequence[BlindCase],
+    jobs: int,
 ) -> None:
     """Do something with all cases, some at a time."""
-    with ThreadPoolExecutor(jobs) as pool:
-        for number, fault in enumerate(pool.map(lambda case: function(work, case), cases), start=1):
-            print(f"{what} {number}/{len(cases)}", f": {fault}" if fault else "", flush=True)
-
-
-def make_in_process(folder: str, number: int, count: int | None) -> str | None:
-    """`make` for a process of its own."""
-    from blind_cases import blind_cases
-
-    return make(Work(Path(folder)), blind_cases(count)[number])
+    with ProcessPoolExecutor(jobs) as pool:
+        for number, fault in enumerate(pool.map(function, repeat(work), cases), start=1):
+            print(f"{what} {number}/{len(cases)}{f': {fault}' if fault else ''}", flush=True)

@@ -78,7 +78,9 @@ def test_a_lump_splits_doublets_by_its_share_of_the_modal_mass(tmp_path: Path) -
 
 def test_equal_seeds_give_equal_files(tmp_path: Path) -> None:
     wish = Wish("ovality")
-    folders = [concealed(tmp_path / name, wish, seed=seed)[0].parent for name, seed in (("a", 5), ("b", 5), ("c", 6))]
+    folders = [
+        concealed(tmp_path / name, wish, seed=seed)[0].parent for name, seed in (("a", 5), ("b", 5), ("c", 6))
+    ]
     contents = [{f.name: f.read_bytes() for f in folder.rglob("*") if f.is_file()} for folder in folders]
     assert contents[0] == contents[1] != contents[2]
 
@@ -92,7 +94,9 @@ def test_frfs_show_the_true_modes(tmp_path: Path) -> None:
         near = np.abs(frfs.frequency_hz / mode["frequency_hz"] - 1) < 0.02
         top = frfs.frequency_hz[near][np.argmax(level[near])]
         assert top == pytest.approx(mode["frequency_hz"], rel=2e-3)
-    assert read_geometry(path.parent / "geometry.toml") == read_geometry(tmp_path / "template" / "geometry.toml")
+    assert read_geometry(path.parent / "geometry.toml") == read_geometry(
+        tmp_path / "template" / "geometry.toml"
+    )
     stator_geometry(read_geometry(path.parent / "geometry.toml"), path)
 
 

@@ -48,7 +48,10 @@ def test_accelerance_of_one_doublet() -> None:
     lines = np.array([300.0, 990.0, 1000.0, 1500.0])
     found = accelerance(Ovals(), PLACES, lines)  # type: ignore[arg-type]
     ovals = Ovals()
-    u = ovals.motion(PLACES.angles, PLACES.z)[5, 0] * ovals.motion(PLACES.hammer_angles, PLACES.hammer_z)[1, 0]
+    u = (
+        ovals.motion(PLACES.angles, PLACES.z)[5, 0]
+        * ovals.motion(PLACES.hammer_angles, PLACES.hammer_z)[1, 0]
+    )
     w = (2 * np.pi * lines) ** 2
     expected = -w * u.sum() / ((2 * np.pi * F0) ** 2 * (1 + 1j * ETA) - w)
     outward = np.sign(PLACES.hammers[1].cylindrical_direction[0])

@@ -1,0 +1,47 @@
+"""Blind benchmark of `statorhom diagnose`: make concealed cases, diagnose them, score the answers.
+
+    python benchmarks/blind/run.py --cases 40 --jobs 2
+
+An interrupted run goes on where it was; `--score` only scores what is there. Table and plot go into FIGURES.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from blind_cases import blind_cases
+from blind_report import write_report
+from blind_score import scored
+from blind_work import Work, diagnose, each, make
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--cases", type=int, default=None, help="how many of the list; all by default")
+    parser.add_argument("--group", default=None, help="only single, nothing, outside, double or ambiguous")
+    parser.add_argument("--kind", choices=("tables", "frfs"), default=None, help="only cases with these data")
+    parser.add_argument("--work", type=Path, default=ROOT / "blind-work", help="folder of cases and runs")
+    parser.add_argument("--figures", type=Path, default=ROOT / "benchmarks" / "figures" / "blind")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--score", action="store_true", help="score what is there and do nothing else")
+    options = parser.parse_args()
+    work = Work(options.work)
+    cases = [
+        case
+        for case in blind_cases(options.cases)
+        if options.group in (None, case.group) and options.kind in (None, "tables" if case.tables else "frfs")
+    ]
+    if not options.score:
+        each("made", make, work, cases, options.jobs)
+        each("diagnosed", diagnose, work, cases, options.jobs)
+    rows = [row for case in cases if (row := scored(work, case)) is not None]
+    print(write_report(rows, options.figures))
+
+
+if __name__ == "__main__":
+    main()

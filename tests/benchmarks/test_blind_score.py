@@ -1,0 +1,106 @@
+"""The blind benchmark's list, and how it scores answers whose worth is known."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+import pytest
+from blind_cases import blind_cases
+from blind_machines import machine, study
+from blind_report import markdown
+from blind_score import angle_error_deg, compared, magnitude_error, summary
+
+from statorhom.conceal.library import NONE, library
+from statorhom.geometry.stator import stator_geometry
+from statorhom.study.geometry_file import GeometryFile
+from statorhom.study.study_file import StudyFile
+
+LUMP = {
+    "effect": "attached_mass",
+    "location": {"angle_deg": 350.0, "z_mm": 20.0},
+    "parameters": {"mass_kg": 0.05},
+}
+
+
+def answer(verdict: str = "named", **effect) -> dict:
+    stated = {
+        "effect": "attached_mass",
+        "location": {"angle_deg": 4.0, "angle_ambiguity_deg": [4.0, 184.0]},
+        "parameters": {"mass_kg": {"value": 0.045, "ci90": [0.04, 0.051]}},
+    }
+    fit = {"held_out": {"what": "-", "before_rms_percent": 1.0, "after_rms_percent": 0.2}}
+    return {"verdict": verdict, "effects": [stated | effect] if verdict == "named" else [], "fit": fit}
+
+
+def test_the_list_is_long_and_every_beginning_is_mixed() -> None:
+    cases = blind_cases()
+    groups = Counter(case.group for case in cases)
+    assert len(cases) >= 360
+    assert groups["nothing"] >= 80
+    assert groups["outside"] >= 60
+    assert blind_cases(40) == cases[:40]
+    assert len(Counter(case.group for case in cases[:20])) == 5
+    assert {name for case in cases for name in case.effects} == {NONE, *library()}
+
+
+def test_machines_differ_and_can_be_built(tmp_path) -> None:
+    files = [GeometryFile.model_validate(machine(number)) for number in range(8)]
+    assert len({file.slots.count for file in files}) > 3
+    for file in files:
+        stator_geometry(file, tmp_path)
+
+
+@pytest.mark.parametrize("template", sorted({case.template for case in blind_cases()}))
+def test_templates_are_studies(template: str) -> None:
+    assert StudyFile.model_validate(study(template, seed=3)).stages[0].tests
+
+
+def test_a_right_answer() -> None:
+    row = compared({"verdict": "named", "effects": [LUMP]}, answer())
+    assert row["effect_right"]
+    assert row["class_right"]
+    assert row["angle_error_deg"] == pytest.approx(14.0)
+    assert row["magnitude_error"] == pytest.approx(0.1)
+    assert row["covered"]
+    assert row["held_out_ratio"] == pytest.approx(0.2)
+
+
+def test_the_right_class_alone_is_not_the_right_effect() -> None:
+    row = compared({"verdict": "named", "effects": [LUMP]}, answer(effect="local_stiffness"))
+    assert (row["effect_right"], row["class_right"]) == (False, True)
+    assert "magnitude_error" not in row
+
+
+def test_silence_is_right_where_nothing_is_missing() -> None:
+    nothing = {"verdict": "none", "effects": []}
+    assert compared(nothing, answer("none"))["verdict_right"]
+    assert not compared(nothing, answer())["verdict_right"]
+
+
+def test_an_oval_yoke_repeats_itself() -> None:
+    true = {"location": {"angle_deg": 80.0}, "parameters": {"harmonic": 4}}
+    assert angle_error_deg(true, {"location": {"angle_deg": 353.0}}) == pytest.approx(3.0)
+
+
+def test_a_wrong_input_of_another_key_has_no_magnitude() -> None:
+    true = {"effect": "wrong_input", "parameters": {"input": "mass_kg", "value": 3.05}}
+    said = {"parameters": {"input": "length_mm", "value": {"value": 80.0}}}
+    assert magnitude_error(true, said) is None
+
+
+def test_figures_count_what_they_say() -> None:
+    base = {"data": "table", "snr": 9.0, "seconds": 1.0, "truth": "x", "template": "stack"}
+    rows = [
+        base | {"group": "single", "verdict": "named", "effect_right": True, "class_right": True},
+        base | {"group": "single", "verdict": "failed", "fault": "no answer"},
+        base
+        | {"group": "single", "verdict": "none", "snr": 1.0, "effect_right": False, "class_right": False},
+        base | {"group": "nothing", "verdict": "named", "named": "ovality"},
+        base | {"group": "nothing", "verdict": "none", "verdict_right": True},
+    ]
+    figures = summary(rows)
+    assert figures["effect right, snr >= 4"] == 0.5
+    assert figures["named on nothing missing"] == 0.5
+    assert np.isnan(figures["named outside the library"])
+    assert "| x (nothing, table) | ovality | 1 |" in markdown(rows)
