@@ -20,7 +20,7 @@ from statorhom.model.stator_mode import RIGID_HZ
 from statorhom.model.supported_shapes import SupportedModes
 from statorhom.model.surface import SurfacePoints, surface_points
 
-# of the frequencies against the mesh's own; lost contact lets parts rattle whose local motion costs most and shows least
+# of the frequencies against the mesh's own; parts that have lost contact rattle, which costs most and shows least
 TOLERANCE, LOOSE_TOLERANCE = 1e-3, 4e-3
 DEPENDENT = 1e-9  # part of a coordinate's mass below which it repeats others
 REFERENCE_HZ = 1000.0  # where a modulus that varies with frequency has its declared value
