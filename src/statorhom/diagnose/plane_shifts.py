@@ -29,7 +29,7 @@ def plane_shifts(measured: MeasuredModes) -> tuple[PlaneShifts, ...]:
         return ()
     extraction = replace(
         measured.extraction,
-        modes=tuple(replace(measured.modes[i].mode, setup_shift=None) for i in kept),
+        modes=tuple(replace(measured.modes[i].mode, shift=None) for i in kept),
     )
     poles = local_poles(extraction, measured.frf_sets[0])
     places = [dof.position for dof in measured.frf_sets[0].responses]
