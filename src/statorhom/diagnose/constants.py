@@ -87,7 +87,7 @@ class Constants:
         """Material constants of a stage, by the names that its materials use; densities left out."""
         return {own: values[name] for own, name in self.owners[stage].items()}
 
-    @property
+    @cached_property
     def limits(self) -> tuple[FloatArray, FloatArray]:
         """Lowest and highest coordinates."""
         pairs = np.array([c.limits for c in self.items])

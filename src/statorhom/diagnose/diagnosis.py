@@ -159,7 +159,7 @@ def _diagnosis(files: StudyFiles, found: Found) -> Diagnosis:
     shown = [a for a in rest if a.probability >= LEAST_PROBABILITY and a.effect != "none"]
     ambiguous = found.verdict == "ambiguous"
     return Diagnosis(
-        schema_version=1,
+        schema=1,
         study=files.study.name,
         verdict=found.verdict,
         effects=effect_results(best, chances.get("+".join(best.effects), 0.0)) if named else (),

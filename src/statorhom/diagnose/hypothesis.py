@@ -225,17 +225,29 @@ class Hypothesis:
         start = np.array([base[i].residual for i in seen])
         columns = []
         for j in range(self.constants):
-            moved = z.copy()
-            moved[j] += STEP
-            try:
-                shifted = self._moved(z, moved, told)
-                found, _ = self._features(moved, shifted)
-                columns.append((np.array([found[i].residual for i in seen]) - start) / STEP)
-            except StatorhomError:
-                columns.append(np.zeros(len(start)))
+            columns.append(self._constant_column(z, j, told, seen, start))
         for j in range(self.constants, len(z)):
             columns.append(self._effect_column(z, j, start))
         return np.array(columns).T.reshape(len(start), len(z))
+
+    def _constant_column(
+        self,
+        z: FloatArray,
+        j: int,
+        told: Mapping[str, tuple[StageModel, Predictions]],
+        seen: Sequence[int],
+        start: FloatArray,
+    ) -> FloatArray:
+        upper = self.study.constants.limits[1][j]
+        for sign in (1.0, -1.0) if z[j] + STEP <= upper else (-1.0,):
+            moved = z.copy()
+            moved[j] += sign * STEP
+            try:
+                found, _ = self._features(moved, self._moved(z, moved, told))
+            except StatorhomError:
+                continue  # at the edge of what materials exist
+            return (np.array([found[i].residual for i in seen]) - start) / (sign * STEP)
+        return np.zeros(len(start))
 
     def _effect_column(self, z: FloatArray, j: int, start: FloatArray) -> FloatArray:
         for sign in (1.0, -1.0):
@@ -254,7 +266,7 @@ class Hypothesis:
         actions = self.actions(z)
         before, after = (self.study.constants.values(p[: self.constants]) for p in (z, moved))
         changed = {name for name in after if after[name] != before[name]}
-        found = {}
+        found: dict[str, tuple[StageModel, Predictions]] = {}
         for name, (stage, tests) in told.items():
             new: dict[str, Mapping[ModeKey, PredictedMode]] = {}
             for test, modes in tests.items():

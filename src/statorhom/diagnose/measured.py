@@ -67,6 +67,23 @@ class Sideband:
 
 
 @dataclass(frozen=True, eq=False)
+class MeasuredShapes:
+    """Radial motion of all modes, made real.
+
+    Parameters
+    ----------
+    labels : of the modes.
+    z_m, angles_rad : (p,), (a,) of the points.
+    radial : (modes, p, a); NaN where not measured.
+    """
+
+    labels: tuple[str, ...]
+    z_m: np.ndarray
+    angles_rad: np.ndarray
+    radial: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
 class MeasuredTest:
     """One test.
 
@@ -76,7 +93,7 @@ class MeasuredTest:
     name, support : of the test.
     modes : all modes, by frequency.
     recorded : whether shapes were seen, so that names and angles are the program's own.
-    splits, shifts, sidebands : what the shapes told.
+    splits, shifts, sidebands, shapes : what the shapes told.
     """
 
     stage: int
@@ -87,6 +104,7 @@ class MeasuredTest:
     splits: tuple[MeasuredSplit, ...] = ()
     shifts: tuple[PlaneShifts, ...] = ()
     sidebands: tuple[Sideband, ...] = ()
+    shapes: MeasuredShapes | None = None
 
     def named(self, names: Mapping[tuple[str, str], tuple[int, int]]) -> tuple[MeasuredMode, ...]:
         """The modes with some names corrected: (test, label) → (r, n)."""

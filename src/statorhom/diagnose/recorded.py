@@ -1,22 +1,170 @@
-"""What the tests of a study measured: tables as typed, recordings as extracted and kept."""
+"""What the tests of a study measured: tables as typed, recordings as extracted, and kept beside the results."""
 
 from __future__ import annotations
 
+import hashlib
+import json
+from dataclasses import asdict, replace
 from pathlib import Path
 
-from statorhom.diagnose.measured import MeasuredTest
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from statorhom.diagnose.measured import MeasuredShapes, MeasuredSplit, MeasuredTest, PlaneShifts, Sideband
+from statorhom.diagnose.plane_shifts import plane_shifts, strongest
+from statorhom.extraction.measured_modes import MeasuredModes, measured_modes
+from statorhom.extraction.modal_table_text import modal_table
 from statorhom.identify.announce import Announce, silent
+from statorhom.modes.doublets import DoubletPair
+from statorhom.recordings.placement import Placement
+from statorhom.study.atomic import write_text
+from statorhom.study.frozen_map import FrozenMap
+from statorhom.study.message import input_error
+from statorhom.study.modal_table import MeasuredMode, ModalTable
+from statorhom.study.modal_tests import ModalTestKeys
 from statorhom.study.study import StudyFiles
+
+FOLDER, FORMAT = "recordings", 4  # a change of method makes what is kept stale
 
 
 def measured_tests(
     files: StudyFiles, folder: Path, announce: Announce = silent
 ) -> tuple[StudyFiles, dict[str, MeasuredTest]]:
-    """The study with tables of all tests, and its tests by name."""
-    del folder, announce
-    found = {}
+    """The study with tables of all tests, and its tests by name.
+
+    Raises
+    ------
+    StatorhomError
+        Where recordings cannot be read or hold no modes.
+    """
+    recorded = [t for s in files.study.stages for t in s.tests if t.name not in files.tables]
+    progress = announce("modal extraction", max(1, len(recorded)))
+    tables, found = dict(files.tables), {}
     for number, stage in enumerate(files.study.stages):
         for test in stage.tests:
-            modes = tuple(sorted(files.tables[test.name].modes, key=lambda m: m.frequency_hz))
-            found[test.name] = MeasuredTest(number, test.name, test.support, modes)
-    return files, found
+            if test.name in files.tables:
+                modes = tuple(sorted(files.tables[test.name].modes, key=lambda m: m.frequency_hz))
+                found[test.name] = MeasuredTest(number, test.name, test.support, modes)
+                continue
+            found[test.name] = _recorded(files, test, number, folder / FOLDER)
+            tables[test.name] = ModalTable(files.path, found[test.name].modes)
+            progress(len(found))
+    return replace(files, tables=FrozenMap(tables)), found
+
+
+def _recorded(files: StudyFiles, test: ModalTestKeys, stage: int, folder: Path) -> MeasuredTest:
+    paths = [files.path.parent / name for name in test.paths]
+    digest = hashlib.sha256(f"{FORMAT} {Placement.of_test(test)}".encode())
+    for path in paths:
+        digest.update(path.read_bytes())
+    kept = folder / f"{test.name}-diagnosis.json"
+    known = _read(kept, digest.hexdigest())
+    if known is not None:
+        return replace(known, stage=stage, name=test.name, support=test.support)
+    with threadpool_limits(limits=1, user_api="blas"):
+        measured = measured_modes(paths, Placement.of_test(test))
+        if not measured.modes:
+            raise input_error(
+                files.path, f"tests[{test.name}]", "no mode stands out of the noise", "repeat the test"
+            )
+        found = from_recording(measured, stage, test.name, test.support, paths[0])
+    write_text(kept, json.dumps({"digest": digest.hexdigest(), "test": asdict(found)}, default=_plain) + "\n")
+    return found
+
+
+def from_recording(measured: MeasuredModes, stage: int, name: str, support: str, path: Path) -> MeasuredTest:
+    """A test from its extracted modes; weaker images of one mode are left out."""
+    paired = {i for d in measured.doublets for i in (d.lower, d.upper)}
+    kept = set(strongest(measured.modes, paired))
+    rows = modal_table(measured, path).modes
+    return MeasuredTest(
+        stage,
+        name,
+        support,
+        tuple(row for i, row in enumerate(rows) if i in kept),
+        recorded=True,
+        splits=tuple(_split(measured, d) for d in measured.doublets),
+        shifts=plane_shifts(measured),
+        sidebands=tuple(s for i in sorted(kept) if (s := _sideband(measured, i)) is not None),
+        shapes=_shapes(measured, sorted(kept)),
+    )
+
+
+def _split(measured: MeasuredModes, d: DoubletPair) -> MeasuredSplit:
+    low, high = (measured.modes[i].mode.frequency_hz for i in (d.lower, d.upper))
+    mean = 2 * np.pi**2 * (low**2 + high**2)
+    sd = float(np.sqrt(np.trace(d.split_covariance) / 2)) / mean
+    return MeasuredSplit(str(d.lower + 1), str(d.upper + 1), d.split / mean, sd)
+
+
+def _sideband(measured: MeasuredModes, number: int) -> Sideband | None:
+    one = measured.modes[number]
+    if one.order is None or one.features is None or one.features.antinode is None or one.shape is None:
+        return None
+    f = one.features
+    angle = f.antinode.angle_rad if f.antinode else 0.0
+    sd = np.nanmean(f.sideband_sd, axis=2)
+    return Sideband(str(number + 1), f.order, angle, f.sideband_cosine, f.sideband_sine, sd, one.shape.z_m)
+
+
+def _shapes(measured: MeasuredModes, kept: list[int]) -> MeasuredShapes | None:
+    shapes = [measured.modes[i].shape for i in kept]
+    first = next((s for s in shapes if s is not None), None)
+    if first is None or any(s is None for s in shapes):
+        return None
+    motion = []
+    for s in shapes:
+        assert s is not None
+        phase = 0.5 * np.angle(np.nansum(s.radial**2))
+        motion.append((s.radial * np.exp(-1j * phase)).real)
+    return MeasuredShapes(tuple(str(i + 1) for i in kept), first.z_m, first.angles_rad, np.array(motion))
+
+
+def _plain(value: object) -> object:
+    if isinstance(value, complex):
+        return [value.real, value.imag]
+    if isinstance(value, np.ndarray | np.generic):
+        return value.tolist()
+    raise TypeError(type(value).__name__)
+
+
+def _read(path: Path, digest: str) -> MeasuredTest | None:
+    """What is kept, None where it is missing, stale or damaged."""
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+        if content["digest"] != digest:
+            return None
+        t = content["test"]
+        return MeasuredTest(
+            t["stage"],
+            t["name"],
+            t["support"],
+            tuple(MeasuredMode(**m) for m in t["modes"]),
+            t["recorded"],
+            tuple(
+                MeasuredSplit(s["lower"], s["upper"], complex(*s["relative"]), s["sd"]) for s in t["splits"]
+            ),
+            tuple(
+                PlaneShifts(s["label"], *(np.array(s[k]) for k in ("z_m", "shift", "sd")))
+                for s in t["shifts"]
+            ),
+            tuple(
+                Sideband(
+                    s["label"],
+                    s["order"],
+                    s["angle_rad"],
+                    *(np.array(s[k], dtype=float) for k in ("cosine", "sine", "sd", "z_m")),
+                )
+                for s in t["sidebands"]
+            ),
+            _read_shapes(t["shapes"]),
+        )
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def _read_shapes(table: dict[str, list] | None) -> MeasuredShapes | None:
+    if table is None:
+        return None
+    arrays = (np.array(table[k], dtype=float) for k in ("z_m", "angles_rad", "radial"))
+    return MeasuredShapes(tuple(table["labels"]), *arrays)

@@ -10,14 +10,17 @@ import numpy.typing as npt
 from statorhom.extraction.extraction import ExtractedMode, Extraction, residual_lines
 from statorhom.extraction.mode_estimates import mode_estimates
 from statorhom.extraction.mode_search import ModeSearch
-from statorhom.extraction.noise import noise_sd
+from statorhom.extraction.noise import expected_sd, noise_sd
 from statorhom.extraction.point_grid import PointGrid, point_grid
-from statorhom.extraction.stabilization import stabilize
+from statorhom.extraction.stabilization import LEAST_SHARE, stabilize
+from statorhom.extraction.unresolved import without_unresolved
 from statorhom.recordings.frf_set import FrfSet
 
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
+_KNOWN = 5e-4  # largest standard deviation of a frequency in a modal table, relative …
+_KNOWN_LINES = 0.1  # … or in lines; among strongly damped modes that overlap it is more
 _LOCATED = 0.5  # largest standard deviation of a mode's frequency, in half-power bandwidths
 
 
@@ -42,15 +45,19 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
     """
     sets = [frf_sets] if isinstance(frf_sets, FrfSet) else list(frf_sets)
     grid = point_grid(sets, band_hz)
-    sd = noise_sd(grid)
+    noise = noise_sd(grid)
+    sd = expected_sd(grid, noise)
     poles, parts, stabilization = stabilize(grid, sd)
-    search = ModeSearch(grid, sd, poles, parts, stabilization.stable_squared)
+    search = ModeSearch(grid, sd, poles, parts, stabilization.lasting_squared)
     decay = float(np.mean([one.window_decay_per_s for one in sets]))
-    found = [mode for fitted in search.run() for mode in mode_estimates(fitted, grid, stabilization, decay)]
+    windows = [without_unresolved(one) for one in search.run()]
+    found = [mode for one, _ in windows for mode in mode_estimates(one, grid, stabilization, decay)]
     found.sort(key=lambda mode: mode.frequency_hz)
     band = (float(grid.omega[0] / (2 * np.pi)), float(grid.omega[-1] / (2 * np.pi)))
-    modes = tuple(mode for mode in found if _is_mode(mode, band))
-    outside = tuple(mode for mode in found if not _is_mode(mode, band))
+    spacing = (band[1] - band[0]) / (len(grid.omega) - 1)
+    listed = [_is_mode(mode, band, spacing) for mode in found]
+    modes = tuple(mode for mode, inside in zip(found, listed, strict=True) if inside)
+    outside = tuple(mode for mode, inside in zip(found, listed, strict=True) if not inside)
     mass_line, stiffness_line = _residual_terms(grid, sd, found)
     return Extraction(
         modes,
@@ -62,14 +69,17 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
         band,
         mass_line,
         stiffness_line,
-        float(np.median((sd / np.maximum(np.abs(grid.receptance), np.finfo(float).tiny))[grid.measured])),
+        float(np.median((noise / np.maximum(np.abs(grid.receptance), np.finfo(float).tiny))[grid.measured])),
         stabilization,
-        tuple(_remarks(modes, outside, band)),
+        tuple([*_merged_remarks([pole for _, poles in windows for pole in poles], len(grid.references)), *_remarks(modes, outside, band)]),
     )
 
 
-def _is_mode(mode: ExtractedMode, band: tuple[float, float]) -> bool:
-    return band[0] <= mode.frequency_hz <= band[1] and mode.frequency_sd_hz < _LOCATED * mode.bandwidth_hz
+def _is_mode(mode: ExtractedMode, band: tuple[float, float], spacing_hz: float) -> bool:
+    """Whether a pole is listed: inside the band, shown by enough model orders and located."""
+    known = max(_KNOWN * mode.frequency_hz, _KNOWN_LINES * spacing_hz)
+    located = mode.frequency_sd_hz < min(known, _LOCATED * mode.bandwidth_hz)
+    return band[0] <= mode.frequency_hz <= band[1] and located and mode.stability >= LEAST_SHARE
 
 
 def _residual_terms(
@@ -93,6 +103,16 @@ def _residual_terms(
     return solution[..., 0], solution[..., 1]
 
 
+def _merged_remarks(poles: Sequence[complex], references: int) -> list[str]:
+    """What is said of modes that were not told apart."""
+    remedy = "cannot be resolved from one reference: hit a second point" if references == 1 else "cannot be resolved"
+    return [
+        f"near {np.sqrt(pole.real) / (2 * np.pi):.2f} Hz two modes of almost one frequency show, a doublet perhaps, "
+        f"which {remedy}; one is listed"
+        for pole in poles
+    ]
+
+
 def _remarks(
     modes: tuple[ExtractedMode, ...], outside: tuple[ExtractedMode, ...], band: tuple[float, float]
 ) -> list[str]:
@@ -100,7 +120,8 @@ def _remarks(
     for mode in outside:
         if band[0] <= mode.frequency_hz <= band[1]:
             remarks.append(
-                f"near {mode.frequency_hz:.1f} Hz the data ask for a mode that they do not locate; it is not listed"
+                f"near {mode.frequency_hz:.1f} Hz a mode is doubtful: {100 * mode.stability:.0f} % of the model "
+                f"orders show it, its frequency is known to {mode.frequency_sd_hz:.2g} Hz; it is not listed"
             )
     for mode in modes:
         if mode.loss_factor <= 0:
