@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from command import statorhom
 from concealed_rings import COARSE, write_ring
 from statorhom.conceal.conceal_study import Wish, conceal_study
 from statorhom.errors import ResultsError
@@ -104,3 +105,15 @@ def test_a_folder_with_files_is_left_alone(tmp_path: Path) -> None:
     template = write_ring(tmp_path)
     with pytest.raises(ResultsError, match="--out"):
         conceal_study(template, [Wish("none")], tmp_path)
+
+
+def test_the_command_says_where_the_study_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("statorhom.conceal.ground.STACK_MESH", COARSE)
+    template = write_ring(tmp_path / "template")
+    options = ["--effect", "attached_mass", "--set", "mass_kg=0.02", "--seed", 3, "--out", tmp_path / "out"]
+    done = statorhom("conceal", template, *options)
+    assert (done.code, done.stdout.strip()) == (0, f"wrote {tmp_path / 'out' / 'study.toml'}")
+    refused = statorhom("conceal", template, "--effect", "atached_mass", "--out", tmp_path / "other")
+    assert refused.code == 2
+    assert len(refused.stderr.strip().splitlines()) == 1
+    assert not (tmp_path / "other").exists()
