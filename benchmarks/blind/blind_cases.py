@@ -37,6 +37,7 @@ DOUBLES = (
 )
 # modes of order 2 only: a lump, a strip and an oval yoke split them alike
 ALIKE = ("attached_mass", "local_stiffness", "ovality")
+ORDER_TWO = (("half_harmonic", 2.0),)  # an oval yoke of four waves splits order 2
 NOTHING = ("stack", "wound", "clamped", "chain")
 COUNTS = {"nothing": 80, "outside": 60, "double": 40, "ambiguous": 30}
 
@@ -55,6 +56,7 @@ class BlindCase:
     strength : 0 … 1, of all effects.
     wide : the true constants are far from where a fit starts.
     highest_order : of the modes that a table lists.
+    given : parameters that are not drawn.
     """
 
     number: int
@@ -66,6 +68,7 @@ class BlindCase:
     strength: float
     wide: bool = False
     highest_order: int | None = None
+    given: tuple[tuple[str, float], ...] = ()
 
     @property
     def name(self) -> str:
@@ -138,7 +141,7 @@ def _doubles() -> list[dict[str, object]]:
 def _ambiguous() -> list[dict[str, object]]:
     rows = [
         _row("ambiguous", (ALIKE[i % len(ALIKE)],), "stack", True, STRENGTHS[i % 3 + 1])
-        | {"highest_order": 2}
+        | {"highest_order": 2, "given": ORDER_TWO if ALIKE[i % len(ALIKE)] == "ovality" else ()}
         for i in range(COUNTS["ambiguous"])
     ]
     return _mixed(rows, 5)

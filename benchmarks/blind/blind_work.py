@@ -54,7 +54,7 @@ def make(work: Work, case: BlindCase) -> str | None:
         return None
     shutil.rmtree(folder, ignore_errors=True)
     template = write_template(work.folder / "templates" / case.name, case.template, case.machine, case.number)
-    wishes = [Wish(name, strength=case.strength) for name in case.effects]
+    wishes = [Wish(name, dict(case.given), case.strength) for name in case.effects]
     try:
         conceal_study(
             template,

@@ -1,7 +1,7 @@
 """How much an effect leaves behind that no refit of the declared model's constants explains.
 
-Frequencies only, so that it is the least that a diagnosis has: r = ln(f true / f declared) of all free tests, whitened
-by the noise of the frequencies and the mesh's uncertainty, which both modes of a name share, and projected onto what no
+Frequencies only, so that it is the least that a diagnosis has: r = ln(f true / f declared) of all free tests, of the
+modes that a table lists or FRFs show, whitened by the noise of the frequencies and the mesh's uncertainty, which both modes of a name share, and projected onto what no
 combination of the declared constants of all stages can do (physics.md §7.4). The projected signal-to-noise is the norm
 of what is left. Supported tests add their plain errors, a heavy accelerometer the differences of the poles.
 """
@@ -31,6 +31,7 @@ FREQUENCY_SD, MESH_SD = (
 )  # relative: of a measured frequency; of a name's mesh error, after extrapolation
 CONSTANT_SD = 0.5  # of a constant's logarithm, before any measurement
 AROUND = 24  # angles at which a plane's poles are averaged
+WIDEST_SPLIT = 1.08  # two modes of a name that are farther apart are no doublet
 REACH = 1.3  # declared modes are sought this much higher than the true ones
 
 
@@ -70,7 +71,8 @@ def detectability(case: Case, tests: Sequence[Measured], density: MeshDensity | 
 
 def _residual(case: Case, measured: Measured, density: MeshDensity | None) -> Residual | None:
     test = case.stages[measured.stage].tests[measured.test]
-    pairs = _by_name(measured.modes)
+    seen = measured.listed if test.is_table else tuple(m for m in measured.modes if m.is_visible)
+    pairs = _by_name(seen)
     if test.declared is not None or not pairs:
         return None
     try:
@@ -90,16 +92,20 @@ def _residual(case: Case, measured: Measured, density: MeshDensity | None) -> Re
 
 
 def _by_name(modes: Sequence[ListedMode]) -> dict[Key, list[float]]:
-    """Visible frequencies by name: two for a doublet, then the next one of the same name."""
-    names: dict[tuple[int, int], list[float]] = defaultdict(list)
-    for mode in sorted((m for m in modes if m.is_visible), key=lambda m: m.frequency_hz):
-        if mode.order is not None and mode.axial is not None:
-            names[mode.order, mode.axial].append(mode.frequency_hz)
-    return {
-        (r, n, first // 2): found[first : first + 2]
-        for (r, n), found in names.items()
-        for first in range(0, len(found), 2)
-    }
+    """Frequencies by name: one or two of a doublet, then the next one of the same name."""
+    found: dict[Key, list[float]] = {}
+    counts: dict[tuple[int, int], int] = defaultdict(int)
+    for mode in sorted(modes, key=lambda m: m.frequency_hz):
+        if mode.order is None or mode.axial is None:
+            continue
+        name = (mode.order, mode.axial)
+        last = found.get((*name, counts[name] - 1))
+        if last is not None and len(last) == 1 and mode.frequency_hz < WIDEST_SPLIT * last[0]:
+            last.append(mode.frequency_hz)
+        else:
+            found[*name, counts[name]] = [mode.frequency_hz]
+            counts[name] += 1
+    return found
 
 
 def _projected(residuals: Sequence[Residual]) -> tuple[dict[str, Any], float]:

@@ -50,7 +50,9 @@ def slipping_curves(
 
     def stiff(amplitude: np.ndarray) -> np.ndarray:
         slipping = amplitude > limit
-        return np.asarray(np.where(slipping, jenkins(amplitude, carried, np.minimum(limit, amplitude)), carried))
+        return np.asarray(
+            np.where(slipping, jenkins(amplitude, carried, np.minimum(limit, amplitude)), carried)
+        )
 
     def excess(amplitude: np.ndarray) -> np.ndarray:
         return np.asarray(amplitude * np.abs(rest + stiff(amplitude) - squared) - force)
