@@ -1,9 +1,10 @@
 """How much an effect leaves behind that no refit of the declared model's constants explains.
 
 Frequencies only, so that it is the least that a diagnosis has: r = ln(f true / f declared) of all free tests, of the
-modes that a table lists or FRFs show, whitened by the noise of the frequencies and the mesh's uncertainty, which both modes of a name share, and projected onto what no
-combination of the declared constants of all stages can do (physics.md §7.4). The projected signal-to-noise is the norm
-of what is left. Supported tests add their plain errors, a heavy accelerometer the differences of the poles.
+modes that a table lists or FRFs show, whitened by the noise of the frequencies and the mesh's uncertainty, which both
+modes of a name share, and projected onto what no combination of the declared constants of all stages can do (physics.md
+§7.4). The projected signal-to-noise is the norm of what is left. Supported tests add their plain errors, a heavy
+accelerometer the differences of the poles.
 """
 
 from __future__ import annotations
