@@ -10,7 +10,7 @@ accelerometer the differences of the poles.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -82,12 +82,13 @@ def _residual(case: Case, measured: Measured, density: MeshDensity | None) -> Re
         return None  # typed data that no stator can have are seen without any test
     orders = sorted({key[0] for key in pairs})
     modes = declared.modes(orders, REACH * measured.ritz.ground.highest_hz)
-    keys = tuple(key for key in pairs if key in modes.named)
-    if not keys:
+    partner = _partners(pairs, {key: mode.frequency_hz for key, mode in modes.named.items()})
+    if not partner:
         return None
-    base = np.array([modes.named[key].frequency_hz for key in keys for _ in pairs[key]])
-    true = np.array([f for key in keys for f in pairs[key]])
-    owner = np.array([i for i, key in enumerate(keys) for _ in pairs[key]])
+    keys = tuple(partner.values())
+    base = np.array([modes.named[partner[key]].frequency_hz for key in partner for _ in pairs[key]])
+    true = np.array([f for key in partner for f in pairs[key]])
+    owner = np.array([i for i, key in enumerate(partner) for _ in pairs[key]])
     slopes = {name: column[owner] for name, column in modes.slopes(keys).items()}
     return Residual(test.name, keys, np.log(true / base), owner, slopes)
 
@@ -106,6 +107,16 @@ def _by_name(modes: Sequence[ListedMode]) -> dict[Key, list[float]]:
         else:
             found[*name, counts[name]] = [mode.frequency_hz]
             counts[name] += 1
+    return found
+
+
+def _partners(pairs: Mapping[Key, list[float]], declared: Mapping[Key, float]) -> dict[Key, Key]:
+    """The declared mode of the same name that is nearest in frequency; each is taken once."""
+    found: dict[Key, Key] = {}
+    for key, frequencies in pairs.items():
+        free = [other for other in declared if other[:2] == key[:2] and other not in found.values()]
+        if free:
+            found[key] = min(free, key=lambda other: abs(np.log(declared[other] / frequencies[0])))
     return found
 
 
