@@ -11,6 +11,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
+from blind_baselines import comparison
 from blind_score import DETECTABLE, summary
 
 from statorhom.study.atomic import write_text
@@ -32,7 +33,9 @@ TARGETS: Mapping[str, str] = {
 
 def write_report(rows: Sequence[Mapping[str, Any]], folder: Path) -> str:
     """Write cases.csv, blind.md and blind.png; the Markdown."""
-    table = pd.DataFrame(rows)
+    table = pd.DataFrame(
+        [{k: v for k, v in row.items() if k != "answers"} | row.get("answers", {}) for row in rows]
+    )
     write_text(folder / "cases.csv", table.to_csv(index=False, float_format="%.4g"))
     text = markdown(rows)
     write_text(folder / "blind.md", text)
@@ -50,6 +53,13 @@ def markdown(rows: Sequence[Mapping[str, Any]]) -> str:
         "| single effects, projected signal-to-noise | cases | effect right | class right | none said |",
     ]
     lines += ["|---|---|---|---|---|", *(_bin_line(rows, a, b) for a, b in pairwise(BINS))]
+    lines += [
+        "",
+        "| method | effect right, snr >= 4 | named on nothing | named outside |",
+        "|---|---|---|---|",
+    ]
+    for method, shares in comparison(rows, DETECTABLE).items():
+        lines.append(f"| {method} | " + " | ".join(f"{share:.2f}" for share in shares.values()) + " |")
     lines += ["", "| truth | answer | cases |", "|---|---|---|"]
     lines += [f"| {true} | {said} | {n} |" for (true, said), n in _failures(rows).most_common()]
     return "\n".join([*lines, ""])

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from blind_baselines import simpler_answers
 from blind_cases import BlindCase
 from blind_work import Work
 
@@ -60,7 +61,7 @@ def scored(work: Work, case: BlindCase) -> dict[str, Any] | None:
     run = json.loads(run_path.read_text(encoding="utf-8"))
     diagnosis_path = work.run(case) / "diagnosis.json"
     said = json.loads(diagnosis_path.read_text(encoding="utf-8")) if diagnosis_path.exists() else None
-    row = {
+    row: dict[str, Any] = {
         "case": case.name,
         "group": case.group,
         "data": "table" if case.tables else "FRF",
@@ -72,7 +73,12 @@ def scored(work: Work, case: BlindCase) -> dict[str, Any] | None:
         "seconds": run["seconds"],
         "fault": run["message"],
     }
-    return row | (compared(truth, said) if said is not None else {"verdict": "failed"})
+    if said is None:
+        return row | {"verdict": "failed"}
+    row |= compared(truth, said)
+    details = json.loads((work.run(case) / "diagnosis-details.json").read_text(encoding="utf-8"))
+    row["effect"] = "+".join(e["effect"] for e in truth["effects"])
+    return row | {"answers": {"diagnose": row["named"], **simpler_answers(details)}}
 
 
 def compared(truth: Mapping[str, Any], said: Mapping[str, Any]) -> dict[str, Any]:

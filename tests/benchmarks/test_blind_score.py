@@ -6,6 +6,7 @@ from collections import Counter
 
 import numpy as np
 import pytest
+from blind_baselines import comparison, simpler_answers
 from blind_cases import blind_cases
 from blind_machines import machine, study
 from blind_report import markdown
@@ -104,3 +105,29 @@ def test_figures_count_what_they_say() -> None:
     assert figures["named on nothing missing"] == 0.5
     assert np.isnan(figures["named outside the library"])
     assert "| x (nothing, table) | ovality | 1 |" in markdown(rows)
+
+
+def test_simpler_methods_answer_by_one_number() -> None:
+    details = {
+        "scan": [{"effect": "ovality", "label": "ovality (stack)", "gain": 30.0}],
+        "evidence": [["attached_mass (stack, lamination)", -3.0]],
+        "p_value": 0.001,
+        "over_nothing": 4.0,
+    }
+    assert simpler_answers(details) == {
+        "refit of all constants": "",
+        "largest gain": "ovality",
+        "largest evidence": "attached_mass",
+    }
+    assert set(simpler_answers(details | {"p_value": 0.5, "over_nothing": -1.0}).values()) == {""}
+
+
+def test_methods_are_compared_on_the_same_cases() -> None:
+    answers = {"diagnose": "x", "refit of all constants": "", "largest gain": "y", "largest evidence": "x"}
+    rows = [
+        {"group": "single", "snr": 9.0, "effect": "x", "answers": answers},
+        {"group": "nothing", "snr": 1.0, "effect": "", "answers": answers},
+    ]
+    found = comparison(rows, 4.0)
+    assert [found[m]["effect right"] for m in ("diagnose", "largest gain")] == [1.0, 0.0]
+    assert found["refit of all constants"]["named on nothing"] == 0.0
