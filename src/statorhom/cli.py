@@ -186,7 +186,9 @@ def conceal(
     out: Out = None,
     given: Annotated[
         list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE", help="A parameter instead of drawing it; EFFECT.NAME of two."),
+        typer.Option(
+            "--set", metavar="NAME=VALUE", help="A parameter instead of drawing it; EFFECT.NAME of two."
+        ),
     ] = None,
     strength: Annotated[
         float | None,
@@ -200,8 +202,15 @@ def conceal(
             "--tables/--frfs", show_default=False, help="Kind of recordings [default: as the study's tests]."
         ),
     ] = None,
+    materials: Annotated[
+        Path | None,
+        typer.Option(
+            "--materials", metavar="DIR", help="Results whose identified materials are the true ones."
+        ),
+    ] = None,
     wide: Annotated[
-        bool, typer.Option("--wide", help="True materials from all that is typical, not a well-made stator's.")
+        bool,
+        typer.Option("--wide", help="True materials from all that is typical, not a well-made stator's."),
     ] = False,
     seed: Seed = 1,
 ) -> None:
@@ -210,7 +219,7 @@ def conceal(
     from statorhom.conceal.wishes import wishes_from
 
     wishes = wishes_from(effect, given or [], strength, stage, test)
-    path, _ = conceal_study(study, wishes, out, seed=seed, tables=tables, wide=wide)
+    path, _ = conceal_study(study, wishes, out, seed=seed, tables=tables, wide=wide, materials=materials)
     typer.echo(f"wrote {path}")
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from statorhom.conceal.detectability import detectability
 from statorhom.conceal.folder import check_empty, write_folder
+from statorhom.conceal.identified import identified_materials
 from statorhom.conceal.library import hidden_effect
 from statorhom.conceal.measure_case import measure_case
 from statorhom.conceal.place_effect import with_effect
@@ -18,7 +19,7 @@ from statorhom.conceal.truth import Case
 from statorhom.conceal.truth_file import truth_text
 from statorhom.mesh import MeshDensity
 from statorhom.study.geometry_file import read_geometry
-from statorhom.study.study_file import StudyFile, read_study_file
+from statorhom.study.study_file import read_study_file
 
 
 @dataclass(frozen=True)
@@ -48,6 +49,7 @@ def conceal_study(
     seed: int = 1,
     tables: bool | None = None,
     wide: bool = False,
+    materials: Path | None = None,
     highest_order: int | None = None,
     verdict: str | None = None,
     density: MeshDensity | None = None,
@@ -63,6 +65,7 @@ def conceal_study(
     seed : equal seeds give equal files.
     tables : write modal tables (True) or FRFs (False) for all tests; None: as the study has them.
     wide : draw the true constants from all that is typical, far from where a fit starts.
+    materials : folder of results whose identified materials are the true ones; None: they are drawn.
     highest_order : modes of higher orders are missing in tables.
     verdict : the right one where the data do not suffice for the best one ("ambiguous").
     density : of the true stator's mesh; None: what is usual of the step.
@@ -81,7 +84,9 @@ def conceal_study(
     check_empty(folder)
     geometry = read_geometry(path.parent / study.geometry)
     rng = np.random.default_rng(seed)
-    case = start_case(path, _with_neutral_name(study, folder), geometry, rng, tables=tables, wide=wide)
+    known = None if materials is None else identified_materials(materials)
+    named = study.model_copy(update={"name": folder.name[:60]})  # what it was called may tell too much
+    case = start_case(path, named, geometry, rng, tables=tables, wide=wide, known=known)
     if highest_order is not None:
         case = _limited(case, highest_order)
     for wish in wishes:
@@ -100,11 +105,6 @@ def conceal_study(
     found = detectability(case, tests, density)
     text = truth_text(folder.name, case, tests, found, verdict or case.verdict)
     return write_folder(folder, case, tests, text), case
-
-
-def _with_neutral_name(study: StudyFile, folder: Path) -> StudyFile:
-    """What the study was called may tell too much."""
-    return study.model_copy(update={"name": folder.name[:60]})
 
 
 def _limited(case: Case, highest_order: int) -> Case:

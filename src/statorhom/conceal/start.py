@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from statorhom.conceal.identified import Known
 from statorhom.conceal.scatter import scatter
 from statorhom.conceal.true_materials import drawn_density, drawn_material
 from statorhom.conceal.truth import Case, TrueMaterial, TrueStage, TrueTest
@@ -29,6 +30,7 @@ def start_case(
     *,
     tables: bool | None = None,
     wide: bool = False,
+    known: Known | None = None,
 ) -> Case:
     """Draw a machine whose regions are as the study declares them.
 
@@ -39,6 +41,7 @@ def start_case(
     rng : source of the numbers.
     tables : whether tests become modal tables; None: as in the study.
     wide : see `statorhom.conceal.true_materials.drawn_material`.
+    known : materials that are not drawn, by stage and region.
 
     Raises
     ------
@@ -50,7 +53,7 @@ def start_case(
             f"{path}: no stage has tests, so there is nothing to conceal an effect in; add a test"
         )
     true = stator_geometry(geometry, path.parent / study.geometry)
-    materials = _Materials(study, rng, wide)
+    materials = _Materials(study, rng, wide, known or {})
     waves = scatter(rng)
     stages = []
     for index, keys in enumerate(study.stages):
@@ -77,8 +80,8 @@ def start_case(
 class _Materials:
     """Regions' materials as the steps add and change them."""
 
-    def __init__(self, study: StudyFile, rng: np.random.Generator, wide: bool) -> None:
-        self.study, self.rng, self.wide = study, rng, wide
+    def __init__(self, study: StudyFile, rng: np.random.Generator, wide: bool, known: Known) -> None:
+        self.study, self.rng, self.wide, self.known = study, rng, wide, known
         self.found: dict[str, TrueMaterial] = {}
         self.copper = 0.0
 
@@ -98,7 +101,10 @@ class _Materials:
             )
 
     def _drawn(self, index: int, region: Region, density: float) -> TrueMaterial:
-        kind = self.study.stages[index].kind
+        keys = self.study.stages[index]
+        if (keys.name, region) in self.known:
+            return self.known[keys.name, region]
+        kind = keys.kind
         symmetry = self.study.symmetry(index, region) or "isotropic"
         return drawn_material(kind, region, symmetry, density, self.rng, wide=self.wide)
 
