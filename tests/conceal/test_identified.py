@@ -26,7 +26,14 @@ def write_results(folder: Path, **changes: object) -> Path:
         "loss_factor": figure(0.007),
         "engineering": {name: figure(value) for name, value in CONSTANTS.items()},
     }
-    stage = {"name": "stack", "mass_kg": 2.3, "regions": {"lamination": region | changes}, "modes": []}
+    weights = {"mass_kg": 2.3, "mass_sd_kg": 0.002, "added_mass_kg": 2.3}
+    stage = {
+        "name": "stack",
+        "kind": "stack",
+        **weights,
+        "regions": {"lamination": region | changes},
+        "modes": [],
+    }
     folder.mkdir()
     text = json.dumps({"schema": 1, "study": "ring", "seed": 1, "stages": [stage]})
     (folder / "results.json").write_text(text, encoding="utf-8")
