@@ -22,14 +22,11 @@ from statorhom.identify.stage_setup import StageSetup, stage_setup
 from statorhom.model.affine import Materials
 from statorhom.study.study import StudyFiles
 
-SNAPSHOTS, TRIALS, STARTS, SHARPENED = (
-    6,
-    80,
-    6,
-    3,
-)  # materials that are solved, tried, refitted and sharpened per step
+# per step: materials that are solved, tried, refitted in wide valleys, and sharpened
+SNAPSHOTS, TRIALS, STARTS, SHARPENED = 6, 200, 16, 3
+APART = 1.0  # prior standard deviations between starts
 COARSE = 0.03  # discrepancy with which valleys are found
-SPREAD = 0.8  # of the prior: how far materials to try lie apart
+SPREAD = 1.1  # of the prior: how far materials to try lie apart
 SAME_HZ = 2e-4  # relative: a basis is good enough when a snapshot moves no frequency by more
 ROUNDS = 3
 MAX_SCATTER_ORDER = 8
@@ -154,12 +151,21 @@ def _best(study: StudyModel, trials: Sequence[np.ndarray]) -> Refit:
         except StatorhomError:
             continue
     scored.sort(key=lambda pair: pair[0])
-    wide = [r for _, z in scored[:STARTS] if (r := _refitted(coarse, z)) is not None]
+    wide = [r for z in _apart([z for _, z in scored]) if (r := _refitted(coarse, z)) is not None]
     wide.sort(key=lambda r: r.objective)
     found = [r for w in wide[:SHARPENED] if (r := _refitted(Hypothesis(study), w.z)) is not None]
     if not found:
         raise IdentificationError("no start of the declared model could be fitted; check masses and tables")
     return min(found, key=lambda r: r.objective)
+
+
+def _apart(points: Sequence[np.ndarray]) -> list[np.ndarray]:
+    """The first points that are no neighbours of better ones."""
+    chosen: list[np.ndarray] = []
+    for z in points:
+        if len(chosen) < STARTS and all(np.linalg.norm(z - other) > APART for other in chosen):
+            chosen.append(z)
+    return chosen
 
 
 def _refitted(hypothesis: Hypothesis, z: np.ndarray) -> Refit | None:

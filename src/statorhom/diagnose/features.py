@@ -26,8 +26,9 @@ SCATTER_SD = (
 SPLIT_OWN = 3e-4  # what the modes of one order differ by in it
 SPLIT_PART = 0.05  # of a split: shape and foot of what causes it are not known
 UNRESOLVED = 0.6  # of the loss factor: standard deviation of a split that shows one mode alone
-SHIFT_OWN = 3e-5  # of pole shifts from plane to plane
+SHIFT_OWN, SHIFT_PART = 5e-5, 0.08  # of pole shifts from plane to plane: other directions of motion, scatter
 LINEAR, KNEE = 8.0, 3.0  # residuals grow with their logarithm beyond: one outlier does not bend all constants
+USUAL_ORDERS = 6
 LOST, LOST_UNNAMED = 10.0, 4.0  # residual of a mode of a table that has no partner
 
 Keys = tuple[ModeKey | None, ...]
@@ -138,11 +139,11 @@ def free_features(
 
 
 def _lost(test: MeasuredTest, rows: Sequence[MeasuredMode]) -> list[Feature]:
-    if test.recorded:
-        return []
+    """Modes without a partner; what a recording shows beyond the usual orders may be an image of another mode."""
+    kept = [m for m in rows if not test.recorded or (m.order is not None and m.order <= USUAL_ORDERS)]
     return [
         Feature("frequency", test.name, None, LOST if m.order is not None else LOST_UNNAMED, 0.0, 1.0)
-        for m in rows
+        for m in kept
     ]
 
 
@@ -194,8 +195,8 @@ def _single(
     sd = float(np.hypot(measured_sd(row), own))
     if predicted.multiplicity == 1:
         return [Feature("frequency", test.name, predicted.key, measured, log_f, sd)]
-    # one of two lines, at a quarter of the split of λ to either side of the mean
-    away = abs(split) / 4
+    # where the effect parts the two lines, it is one of them, a quarter of the split of λ to either side of the mean
+    away = abs(predicted.split) / 4 if abs(predicted.split) > (row.loss_factor or 0.01) else 0.0
     log_f += away * float(np.tanh((measured - log_f) / (0.3 * away + 1e-9)))
     width = UNRESOLVED * (row.loss_factor or 0.01)
     most = 3.0 if test.recorded else 1.8  # tables leave modes out
@@ -231,10 +232,23 @@ def shift_features(
             continue
         square = np.interp(shifts.z_m, *amplitudes[key]) ** 2
         moved = -0.5 * sensor_kg * square
-        weight = shifts.sd**-2 / np.sum(shifts.sd**-2)
-        moved = moved - weight @ moved
+        moved = moved - moved.mean()
         for measured, p, sd in zip(shifts.shift, moved, shifts.sd, strict=True):
-            found.append(
-                Feature("shift", test.name, key, float(measured), float(p), float(np.hypot(sd, SHIFT_OWN)))
-            )
+            found.append(Feature("shift", test.name, key, float(measured), float(p), _shift_sd(sd, measured)))
     return found
+
+
+def loading(
+    test: MeasuredTest,
+    key: ModeKey,
+    amplitudes: Mapping[ModeKey, tuple[np.ndarray, np.ndarray]],
+    sensor_kg: float,
+) -> float:
+    """Mean fall of ln f by a sensor's mass over the test's measuring planes."""
+    if key not in amplitudes or not test.shifts:
+        return 0.0
+    return 0.5 * sensor_kg * float(np.mean(np.interp(test.shifts[0].z_m, *amplitudes[key]) ** 2))
+
+
+def _shift_sd(sd: float, measured: float) -> float:
+    return float(np.sqrt(sd**2 + SHIFT_OWN**2 + (SHIFT_PART * measured) ** 2))

@@ -10,7 +10,15 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.diagnose.dimension_response import changed_geometry, step_of
-from statorhom.diagnose.features import Feature, Keys, assigned, free_features, missed_cost, shift_features
+from statorhom.diagnose.features import (
+    Feature,
+    Keys,
+    assigned,
+    free_features,
+    loading,
+    missed_cost,
+    shift_features,
+)
 from statorhom.diagnose.masses import (
     LAMINATION_DENSITY,
     LAMINATION_DENSITY_SD,
@@ -26,6 +34,7 @@ from statorhom.model.convergence import ModeKey
 from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.library import library
+from statorhom.study.modal_table import MeasuredMode
 from statorhom.study.study_file import FREE
 
 FloatArray = npt.NDArray[np.float64]
@@ -126,7 +135,7 @@ class Hypothesis:
         return replace(self, held=held, missed=missed)
 
     @staticmethod
-    def modes(test: MeasuredTest, actions: Sequence[Action]) -> tuple:
+    def modes(test: MeasuredTest, actions: Sequence[Action]) -> tuple[MeasuredMode, ...]:
         """Measured modes, their names corrected."""
         names: dict[tuple[str, str], tuple[int, int]] = {}
         for action in actions:
@@ -136,7 +145,13 @@ class Hypothesis:
     def features(self, z: FloatArray, left_out: bool = False) -> list[Feature]:
         """All features that are seen, or those that are left out."""
         found, _ = self._features(z)
-        return [f for f in found if (f.group in self.left_out) == left_out]
+        return [f for f in found if self._sees(f) != left_out]
+
+    def _sees(self, feature: Feature) -> bool:
+        """Wide valleys are sought with frequencies alone."""
+        if self.discrepancy and feature.kind not in ("frequency", "density"):
+            return False
+        return feature.group not in self.left_out
 
     def residuals(self, z: FloatArray) -> FloatArray:
         """Of the features that are seen, without the prior."""
@@ -193,9 +208,14 @@ class Hypothesis:
             for name, value in values.items()
             if name.startswith("scatter") and name.endswith("re")
         }
+        sensor = sum(a.sensor_kg for a in actions if a.touches(stage.name, test.name))
+        if sensor:
+            modes = {
+                k: replace(m, log_f=m.log_f - loading(test, k, stage.amplitudes, sensor))
+                for k, m in modes.items()
+            }
         found = free_features(test, measured, keys, modes, scatter, stage.error, self.discrepancy)
         if test.shifts:
-            sensor = sum(a.sensor_kg for a in actions if a.touches(stage.name, test.name))
             labels = {m.label: k for m, k in zip(measured, keys, strict=True) if k is not None}
             found += shift_features(test, labels, stage.amplitudes, sensor)
         return found
@@ -221,7 +241,7 @@ class Hypothesis:
     def jacobian(self, z: FloatArray) -> FloatArray:
         """Derivative of the residuals, (features, coordinates)."""
         base, told = self._features(z)
-        seen = [i for i, f in enumerate(base) if f.group not in self.left_out]
+        seen = [i for i, f in enumerate(base) if self._sees(f)]
         start = np.array([base[i].residual for i in seen])
         columns = []
         for j in range(self.constants):

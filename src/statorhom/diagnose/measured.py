@@ -36,12 +36,14 @@ class PlaneShifts:
     label : of the mode.
     z_m : (p,) planes.
     shift, sd : (p,) against the mean over all planes.
+    mean : of the planes against the mode's own frequency as it was extracted.
     """
 
     label: str
     z_m: np.ndarray
     shift: np.ndarray
     sd: np.ndarray
+    mean: float
 
 
 @dataclass(frozen=True, eq=False)

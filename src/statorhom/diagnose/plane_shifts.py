@@ -92,4 +92,4 @@ def _by_plane(
     if len(planes) < 2:
         return None
     s, d = np.array(means), np.array(deviations)
-    return PlaneShifts(label, np.array(planes), s - float(d**-2 @ s / np.sum(d**-2)), d)
+    return PlaneShifts(label, np.array(planes), s - float(s.mean()), d, float(s.mean()))

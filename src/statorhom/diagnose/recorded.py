@@ -24,7 +24,7 @@ from statorhom.study.modal_table import MeasuredMode, ModalTable
 from statorhom.study.modal_tests import ModalTestKeys
 from statorhom.study.study import StudyFiles
 
-FOLDER, FORMAT = "recordings", 4  # a change of method makes what is kept stale
+FOLDER, FORMAT = "recordings", 5  # a change of method makes what is kept stale
 
 
 def measured_tests(
@@ -76,7 +76,12 @@ def from_recording(measured: MeasuredModes, stage: int, name: str, support: str,
     """A test from its extracted modes; weaker images of one mode are left out."""
     paired = {i for d in measured.doublets for i in (d.lower, d.upper)}
     kept = set(strongest(measured.modes, paired))
-    rows = modal_table(measured, path).modes
+    shifts = plane_shifts(measured)
+    moved = {s.label: 1.0 + s.mean for s in shifts}
+    rows = [
+        replace(row, frequency_hz=row.frequency_hz * moved.get(row.label, 1.0))
+        for row in modal_table(measured, path).modes
+    ]
     return MeasuredTest(
         stage,
         name,
@@ -84,7 +89,7 @@ def from_recording(measured: MeasuredModes, stage: int, name: str, support: str,
         tuple(row for i, row in enumerate(rows) if i in kept),
         recorded=True,
         splits=tuple(_split(measured, d) for d in measured.doublets),
-        shifts=plane_shifts(measured),
+        shifts=shifts,
         sidebands=tuple(s for i in sorted(kept) if (s := _sideband(measured, i)) is not None),
         shapes=_shapes(measured, sorted(kept)),
     )
@@ -145,7 +150,9 @@ def _read(path: Path, digest: str) -> MeasuredTest | None:
                 MeasuredSplit(s["lower"], s["upper"], complex(*s["relative"]), s["sd"]) for s in t["splits"]
             ),
             tuple(
-                PlaneShifts(s["label"], *(np.array(s[k]) for k in ("z_m", "shift", "sd")))
+                PlaneShifts(
+                    s["label"], np.array(s["z_m"]), np.array(s["shift"]), np.array(s["sd"]), s["mean"]
+                )
                 for s in t["shifts"]
             ),
             tuple(

@@ -71,7 +71,12 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
         stiffness_line,
         float(np.median((noise / np.maximum(np.abs(grid.receptance), np.finfo(float).tiny))[grid.measured])),
         stabilization,
-        tuple([*_merged_remarks([pole for _, poles in windows for pole in poles], len(grid.references)), *_remarks(modes, outside, band)]),
+        tuple(
+            [
+                *_merged_remarks([pole for _, poles in windows for pole in poles], len(grid.references)),
+                *_remarks(modes, outside, band),
+            ]
+        ),
     )
 
 
@@ -105,7 +110,11 @@ def _residual_terms(
 
 def _merged_remarks(poles: Sequence[complex], references: int) -> list[str]:
     """What is said of modes that were not told apart."""
-    remedy = "cannot be resolved from one reference: hit a second point" if references == 1 else "cannot be resolved"
+    remedy = (
+        "cannot be resolved from one reference: hit a second point"
+        if references == 1
+        else "cannot be resolved"
+    )
     return [
         f"near {np.sqrt(pole.real) / (2 * np.pi):.2f} Hz two modes of almost one frequency show, a doublet perhaps, "
         f"which {remedy}; one is listed"

@@ -134,9 +134,7 @@ def _name(mode: ExtractedMode, layout: PointLayout) -> NamedMode:
     return NamedMode(mode, shape, name, shape_features(shape) if has_order else None)
 
 
-def _with_hints(
-    modes: Sequence[NamedMode], extraction: Extraction, frfs: FrfSet
-) -> tuple[NamedMode, ...]:
+def _with_hints(modes: Sequence[NamedMode], extraction: Extraction, frfs: FrfSet) -> tuple[NamedMode, ...]:
     """Hints of the modes whose poles stay: one pole does not describe the FRFs of the others."""
     every = [*extraction.modes, *extraction.outside]
     return tuple(

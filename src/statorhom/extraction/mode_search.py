@@ -144,7 +144,6 @@ class ModeSearch:
         poles[own] = np.nan
         self.modes = replace(self.modes, poles=poles).joined(fit.modes)
 
-
     def _with_moving(self, window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
         if self.set_ups is None:
             return fit

@@ -89,7 +89,9 @@ def sensor_trend(
         return None
     square = np.mean(np.sum(amplitude**2, axis=2), axis=0)
     low, high = shifts.joint.ci90_kg
-    return SensorTrend(tuple(chosen), shifts, shifts.bare_hz, shifts.bare_hz * square * (high - low) / 2 / 3.29)
+    return SensorTrend(
+        tuple(chosen), shifts, shifts.bare_hz, shifts.bare_hz * square * (high - low) / 2 / 3.29
+    )
 
 
 def _frequencies(mode: ExtractedMode) -> tuple[FloatArray, FloatArray]:
@@ -119,7 +121,9 @@ def _wave(
     middle, span = float(z.mean()), max(float(np.ptp(z)), np.finfo(float).tiny)
     degree = min(axial + 1, len(np.unique(z.round(6))) - 1)
     along = np.vander((z - middle) / span, degree + 1)
-    columns = np.concatenate([along * np.cos(order * theta)[:, None], along * np.sin(order * theta)[:, None]], axis=1)
+    columns = np.concatenate(
+        [along * np.cos(order * theta)[:, None], along * np.sin(order * theta)[:, None]], axis=1
+    )
     size = float(np.abs(mode.participation[0]))
     solution = np.linalg.lstsq(columns, mode.shape.real * size, rcond=None)[0].reshape(2, -1)
     at_hammer = np.vander([(hammer.position[2] - middle) / span], degree + 1)[0] @ solution.T
