@@ -9,7 +9,8 @@ import numpy as np
 from statorhom.conceal.ritz import RitzModes
 from statorhom.modes.supported_names import name_supported
 
-VISIBLE = 0.02  # of a uniform ring's radial motion: what an accelerometer shows clearly
+VISIBLE = 0.1  # of a uniform ring's radial motion: what an accelerometer shows clearly
+PURE = 0.6  # of the radial motion that one order must have before anybody gives a mode of a free test its name
 BODIES = 0.5  # of the lowest elliptic frequency: below lies a body on its springs, which no table lists
 HEAVY_DAMPING = 0.12  # loss factor above which nobody finds a mode in the FRFs
 
@@ -42,6 +43,7 @@ def listed_modes(ritz: RitzModes, *, is_free: bool = True) -> tuple[ListedMode, 
                 mode.kind == "radial"
                 and mode.visibility > VISIBLE
                 and loss < HEAVY_DAMPING
+                and (mode.share > PURE or not is_free)
                 and mode.frequency_hz > lowest
             ),
         )
