@@ -10,7 +10,7 @@ from statorhom.conceal.breaks import Cords
 from statorhom.conceal.hidden_effect import ANGLE, Drawn, HiddenEffect, Place, is_free
 from statorhom.conceal.truth import Case, Finding
 
-PER_KG = (2e5, 2e7)  # N/m per kilogram of the stator
+PER_KG = (1e5, 3e6)  # N/m per kilogram of the stator
 
 
 def _parameters(place: Place) -> tuple[Drawn, ...]:
