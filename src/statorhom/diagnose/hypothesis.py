@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import cast
 
 import numpy as np
 import numpy.typing as npt
@@ -28,7 +29,14 @@ from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode, acted_materials, material_vector, predicted
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
-from statorhom.diagnose.supported import supported_features
+from statorhom.diagnose.supported import (
+    Partners,
+    SupportedReference,
+    partners,
+    predicted_logs,
+    supported_features,
+    supported_reference,
+)
 from statorhom.errors import StatorhomError
 from statorhom.model.convergence import ModeKey
 from statorhom.physics.action import Action
@@ -61,7 +69,7 @@ class Hypothesis:
     study: StudyModel
     candidates: tuple[Candidate, ...] = ()
     left_out: frozenset[tuple[str, ModeKey | None]] = frozenset()
-    held: Mapping[str, Keys] | None = None
+    held: Mapping[str, Keys | Partners] | None = None
     missed: float = 0.0
     discrepancy: float = 0.0
 
@@ -125,13 +133,17 @@ class Hypothesis:
             If no stator has these constants.
         """
         values, actions = self.study.constants.values(z[: self.constants]), self.actions(z)
-        held, missed = {}, 0.0
+        held: dict[str, Keys | Partners] = {}
+        missed = 0.0
         for stage in self.study.stages:
             for test in stage.tests:
-                if test.support == FREE:
+                if test.support != FREE:
+                    held[test.name] = self._supported_partners(stage, test, values, actions, self.mark(z))
+                else:
                     found = predicted(self.study, stage, values, actions, test.name, self.mark(z))
-                    held[test.name] = assigned(test, self.modes(test, actions), found)
-                    missed += missed_cost(test, held[test.name], found)
+                    keys = assigned(test, self.modes(test, actions), found)
+                    held[test.name] = keys
+                    missed += missed_cost(test, keys, found)
         return replace(self, held=held, missed=missed)
 
     @staticmethod
@@ -169,15 +181,65 @@ class Hypothesis:
             for test in stage.tests:
                 known = moved[stage.name][1].get(test.name) if moved else None
                 if test.support != FREE:
-                    found += supported_features(self.study, stage, test, values, actions)
-                    continue
-                modes = (
-                    known if known is not None else predicted(self.study, stage, values, actions, test.name)
-                )
+                    modes = known if known is not None else self._unsupported(stage, test, values, actions)
+                    found += self._supported(stage, test, modes, actions, self.mark(z))
+                else:
+                    modes = (
+                        known
+                        if known is not None
+                        else self._partners(stage, test, values, actions, self.mark(z))
+                    )
+                    found += self._free(stage, test, modes, values, actions)
                 free[test.name] = modes
-                found += self._free(stage, test, modes, values, actions)
             told[stage.name] = (stage, free)
         return found, told
+
+    def _unsupported(
+        self, stage: StageModel, test: MeasuredTest, values: Mapping[str, float], actions: Sequence[Action]
+    ) -> dict[ModeKey, PredictedMode]:
+        """Free modes that a supported test is made of; what breaks the symmetry is solved with the support."""
+        return predicted(self.study, stage, values, [replace(a, changes=None) for a in actions], test.name)
+
+    def _supported_partners(
+        self,
+        stage: StageModel,
+        test: MeasuredTest,
+        values: Mapping[str, float],
+        actions: Sequence[Action],
+        mark: Hashable,
+    ) -> Partners:
+        reference = self._reference(stage, test, actions, mark)
+        if reference is None:
+            return ()
+        logs = predicted_logs(stage, reference, self._unsupported(stage, test, values, actions))
+        return partners(test, reference, logs)
+
+    def _reference(
+        self, stage: StageModel, test: MeasuredTest, actions: Sequence[Action], mark: Hashable
+    ) -> SupportedReference | None:
+        declared = self.study.files.study.support(test.support)
+        held = [a.supports[test.support] for a in actions if test.support in a.supports]
+        keys = held[-1] if held else declared
+        assert keys is not None
+        here = [a for a in actions if a.touches(stage.name, test.name)]
+        return supported_reference(stage, test, keys, here, mark)
+
+    def _supported(
+        self,
+        stage: StageModel,
+        test: MeasuredTest,
+        modes: Mapping[ModeKey, PredictedMode],
+        actions: Sequence[Action],
+        mark: Hashable,
+    ) -> list[Feature]:
+        assert self.held is not None
+        reference = self._reference(stage, test, actions, mark)
+        if reference is None:
+            return []
+        found = supported_features(
+            test, cast(Partners, self.held[test.name]), predicted_logs(stage, reference, modes)
+        )
+        return [replace(f, sd=float(np.hypot(f.sd, self.discrepancy))) if f.key else f for f in found]
 
     def _partners(
         self,
@@ -202,7 +264,7 @@ class Hypothesis:
         actions: Sequence[Action],
     ) -> list[Feature]:
         assert self.held is not None
-        keys, measured = self.held[test.name], self.modes(test, actions)
+        keys, measured = cast(Keys, self.held[test.name]), self.modes(test, actions)
         scatter = {
             int(name.split()[1]): complex(value, values[f"{name[:-2]}im"])
             for name, value in values.items()

@@ -1,23 +1,155 @@
-"""Features of supported tests: the stator on springs, in the basis of its free modes."""
+"""Supported tests: the stator on springs, in the basis of its free modes.
+
+How a supported frequency follows the constants is told by the free modes that it is made of: d ln f is the mean of
+theirs, weighted by their shares in the strain energy. A support declared rigid has springs far stiffer than any stator.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass
 
-from statorhom.diagnose.features import Feature
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from statorhom.diagnose.features import LOST, Feature, measured_sd
 from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.prediction import PredictedMode
 from statorhom.diagnose.stage_model import StageModel
-from statorhom.diagnose.study_model import StudyModel
+from statorhom.model.broken.attachments import springs
+from statorhom.model.broken.solve import BrokenModes, solve_broken
+from statorhom.model.convergence import ModeKey
+from statorhom.model.supports import support_on
+from statorhom.model.surface import surface_points
+from statorhom.modes.supported_names import name_supported
 from statorhom.physics.action import Action
+from statorhom.study.supports import FaceSupport, LineSupport, SupportKeys
+
+RIGID_PER_M2, RIGID_PER_M3 = 1e14, 1e16  # stiffness of what holds like a rock (N/m², N/m³)
+OWN = 3e-3  # relative model error of a supported frequency: lines have a width, clamps a form
+LOG_SPREAD, MAC_SPREAD = 0.2, 0.2  # within which partners are sought
+GATE = 9.0
+NAME_COST = 4.0
+
+Partners = tuple[int | None, ...]
 
 
-def supported_features(
-    study: StudyModel,
-    stage: StageModel,
-    test: MeasuredTest,
-    values: Mapping[str, float],
-    actions: Sequence[Action],
-) -> list[Feature]:
-    """Frequencies of a supported test."""
-    del study, stage, test, values, actions
-    return []
+@dataclass(frozen=True, eq=False)
+class SupportedReference:
+    """Supported modes at the stage's reference.
+
+    Parameters
+    ----------
+    log_f : (modes,) ln of the frequencies (Hz).
+    shares : named free mode → (modes,) share of its strain energy.
+    radial : (modes, planes, angles) at the test's points, None where no shapes were measured.
+    names : (r, n) of every mode, empty where shapes were measured.
+    """
+
+    log_f: np.ndarray
+    shares: Mapping[ModeKey, np.ndarray]
+    radial: np.ndarray | None
+    names: tuple[tuple[int | None, int | None], ...]
+
+
+def elastic_keys(keys: SupportKeys) -> SupportKeys:
+    """A support with a stiffness, whatever it is declared."""
+    if keys.declared == "elastic":
+        return keys
+    table = keys.model_dump(exclude={"tangential_ratio"}) | {"declared": "elastic"}
+    if isinstance(keys, FaceSupport):
+        return FaceSupport.model_validate(table | {"normal_stiffness_n_per_m3": RIGID_PER_M3})
+    return LineSupport.model_validate(table | {"normal_stiffness_n_per_m2": RIGID_PER_M2})
+
+
+def supported_reference(
+    stage: StageModel, test: MeasuredTest, keys: SupportKeys, actions: Sequence[Action], mark: Hashable
+) -> SupportedReference | None:
+    """Modes of a supported test; None for supports that hold end faces."""
+    place = ("supported", test.name, mark)
+    if mark is None or place not in stage.kept_responses:
+        found = _solved(stage, test, keys, actions)
+        while len(stage.kept_responses) >= 32:
+            stage.kept_responses.pop(next(iter(stage.kept_responses)))
+        stage.kept_responses[place] = found
+    known: SupportedReference | None = stage.kept_responses[place]
+    return known
+
+
+def _solved(
+    stage: StageModel, test: MeasuredTest, keys: SupportKeys, actions: Sequence[Action]
+) -> SupportedReference | None:
+    mesh = stage.model.mesh
+    support = support_on(mesh, elastic_keys(keys))
+    if support.ends is not None or support.points.stiffness is None:
+        return None
+    changes = [c for a in actions if a.changes for c in a.changes(mesh, stage.reference)]
+    modes = solve_broken(stage.broken, [springs(mesh, support.points), *changes], tolerance=None)
+    log_f = np.log(modes.frequencies_hz)
+    shares = {key: _share(modes, stage, key) for key in stage.columns}
+    if test.shapes is None:
+        named = name_supported(modes.shapes, stage.model, stage.reference)
+        return SupportedReference(log_f, shares, None, tuple((m.order, m.axial) for m in named))
+    z, angles = (a.ravel() for a in np.meshgrid(test.shapes.z_m, test.shapes.angles_rad, indexing="ij"))
+    motion = modes.shapes.motion(surface_points(mesh, angles, z))[:, 0]
+    shape = (len(test.shapes.z_m), len(test.shapes.angles_rad), len(modes))
+    return SupportedReference(log_f, shares, np.moveaxis(motion.reshape(shape), -1, 0), ())
+
+
+def _share(modes: BrokenModes, stage: StageModel, key: ModeKey) -> np.ndarray:
+    place = stage.columns[key]
+    used = [place.cosine] if place.sine is None else [place.cosine, place.sine]
+    energy = np.sum(modes.coordinates[used] ** 2, axis=0) * place.eigenvalue
+    return np.asarray(np.minimum(energy / modes.eigenvalues, 1.0))
+
+
+def predicted_logs(
+    stage: StageModel, reference: SupportedReference, modes: Mapping[ModeKey, PredictedMode]
+) -> np.ndarray:
+    """ln f of all supported modes at the constants of `modes`, the free modes predicted there."""
+    total = reference.log_f.copy()
+    for key, share in reference.shares.items():
+        if key in modes:
+            total += share * (modes[key].log_f - np.log(stage.reference_keys[key].frequency_hz))
+    return total
+
+
+def partners(test: MeasuredTest, reference: SupportedReference, logs: np.ndarray) -> Partners:
+    """Number of the supported mode that each measured one is, by shape or by name."""
+    measured = np.log([m.frequency_hz for m in test.modes])
+    cost = ((measured[:, None] - logs[None, :]) / LOG_SPREAD) ** 2
+    if reference.radial is not None and test.shapes is not None:
+        cost = cost + ((1 - _mac(test, reference.radial)) / MAC_SPREAD) ** 2
+    else:
+        for i, mode in enumerate(test.modes):
+            for j, (order, axial) in enumerate(reference.names):
+                other = (mode.order is not None and mode.order != order) or (
+                    mode.axial is not None and mode.axial != axial
+                )
+                cost[i, j] += NAME_COST * other
+    wide = np.hstack([cost, np.full((len(measured), len(measured)), 2 * GATE)])
+    rows, columns = linear_sum_assignment(wide)
+    return tuple(int(c) if c < len(logs) else None for _, c in sorted(zip(rows, columns, strict=True)))
+
+
+def _mac(test: MeasuredTest, radial: np.ndarray) -> np.ndarray:
+    assert test.shapes is not None
+    rows = [test.shapes.labels.index(m.label) for m in test.modes]
+    a = np.nan_to_num(test.shapes.radial[rows]).reshape(len(rows), -1)
+    b = np.where(np.isfinite(test.shapes.radial[rows][0]), radial, 0.0).reshape(len(radial), -1)
+    product = (a @ b.T) ** 2
+    return np.asarray(product / np.maximum(np.outer(np.sum(a**2, axis=1), np.sum(b**2, axis=1)), 1e-300))
+
+
+def supported_features(test: MeasuredTest, held: Partners, logs: np.ndarray) -> list[Feature]:
+    """Frequencies of a supported test; each mode is a group of its own."""
+    found = []
+    for number, (mode, partner) in enumerate(zip(test.modes, held, strict=True)):
+        key = (mode.order if mode.order is not None else -1, mode.axial or 0, number)
+        if partner is None or partner >= len(logs):
+            found.append(Feature("frequency", test.name, None, LOST, 0.0, 1.0))
+            continue
+        sd = float(np.hypot(measured_sd(mode), OWN))
+        measured = float(np.log(mode.frequency_hz))
+        found.append(Feature("frequency", test.name, key, measured, float(logs[partner]), sd))
+    return found
