@@ -47,7 +47,8 @@ def test_the_search_s_basis_is_coarse_and_the_one_around_its_result_exact():
         errors.append(error)
     assert errors[1] < errors[0]
     assert narrow.solve(truth).largest_certified_error <= LOCAL.tolerance
-    assert len(announced) == 2
+    assert [what for what, _ in announced] == ["reduced bases", "bases around the optima"]
+    assert {count for _, count in announced} == {len(wide.kinds)}
 
 
 def test_the_basis_around_an_optimum_is_smaller():

@@ -48,15 +48,18 @@ class FitBases:
     ) -> ReducedStator:
         """Reduced model for all that a prior allows, fastest at the densities of `typical`."""
         plan = SHARED if self.shared else SEARCH
-        return self._reduce(training_materials(space, materials, plan.training), typical, plan)
+        training = training_materials(space, materials, plan.training)
+        return self._reduce("reduced bases", training, typical, plan)
 
     def around(self, problem: StageProblem, optima: Sequence[np.ndarray]) -> ReducedStator:
         """Reduced model for what lies around optima of a problem, the best first."""
         training = neighbouring_materials(problem, optima, LOCAL.training)
-        return self._reduce(training, training[0], LOCAL)
+        return self._reduce("bases around the optima", training, training[0], LOCAL)
 
-    def _reduce(self, training: Sequence[Materials], typical: Materials, plan: BasisPlan) -> ReducedStator:
-        progress = self.announce("reduced bases", len(self.spaces))
+    def _reduce(
+        self, what: str, training: Sequence[Materials], typical: Materials, plan: BasisPlan
+    ) -> ReducedStator:
+        progress = self.announce(what, len(self.spaces))
         step = SHARED_STEP if self.shared else STEP
         known = (self.model, training, typical, self.spaces, self.highest_hz, self.workers)
         return reduce_stage(*known, plan, progress, self.store, step)
