@@ -37,7 +37,7 @@ from statorhom.study.atomic import write_text
 FOLDER = ROOT / "measurements" / "van-der-giet-550w"
 STUDIES = (FOLDER / "study.toml", FOLDER / "study-orthotropy.toml")
 FIGURES = ROOT / "benchmarks" / "figures" / "step_fit.json"
-DENSITY = MeshDensity(uniform().cells | CELLS)
+DENSITY = MeshDensity(dict(uniform().cells) | CELLS)
 EVALUATIONS = 5000
 
 
