@@ -99,10 +99,10 @@ def _find(
     candidates = all_candidates(files)
     counts = dict(Counter(c.effect for c in candidates))
     progress = announce("scan of effects", 1)
-    signatures = scan(base.refit, [c for c in candidates if c.parameters], settings.seed)
+    signatures = scan(base.free, [c for c in candidates if c.parameters], settings.seed)
     progress(1)
     progress = announce("explanations", 1)
-    found = single_effects(base.refit, signatures, [c for c in candidates if not c.parameters], counts)
+    found = single_effects(base.free, signatures, [c for c in candidates if not c.parameters], counts)
     if found and found[0].adequacy < ADEQUATE:
         used = found[0].effects
         second = [s for s in signatures.worth_refitting(SECONDS, 0.0) if s.candidate.effect not in used]
