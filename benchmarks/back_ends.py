@@ -109,7 +109,7 @@ def installed() -> list[str]:
 def compare(cells: dict[str, int], names: list[str], rounds: int) -> dict[str, object]:
     """Figures of every back end on one mesh."""
     step = stator_geometry(read_geometry(GEOMETRY), GEOMETRY).step(("stack",))
-    half = mesh_step(step, MeshDensity(uniform().cells | cells))
+    half = mesh_step(step, MeshDensity(dict(uniform().cells) | cells))
     model = whole_ring(half)
     found: dict[str, list[dict[str, float]]] = {name: [] for name in names}
     with tempfile.TemporaryDirectory() as folder:

@@ -57,7 +57,7 @@ SKFEM_CORNERS = [0, 4, 3, 1, 7, 5, 2, 6]  # where scikit-fem's cube has our corn
 def half_pitch(size: int) -> HalfPitchMesh:
     """Mesh of the stack with so many thousand degrees of freedom."""
     step = stator_geometry(read_geometry(GEOMETRY), GEOMETRY).step(("stack",))
-    return mesh_step(step, MeshDensity(uniform().cells | SIZES[size]))
+    return mesh_step(step, MeshDensity(dict(uniform().cells) | SIZES[size]))
 
 
 def ours(half: HalfPitchMesh) -> np.ndarray:

@@ -26,7 +26,7 @@ from statorhom.identify.parameters import Parameter, ParameterSpace
 from statorhom.identify.priors import Carried, stage_space
 from statorhom.identify.refinement import MeshSeries
 from statorhom.identify.settings import Settings
-from statorhom.identify.stage_basis import BASIS_TOLERANCE, TRAINING
+from statorhom.identify.stage_basis import SHARED
 from statorhom.identify.stage_fit import search_space
 from statorhom.identify.stage_materials import StageMaterials
 from statorhom.identify.stage_setup import analytic_values, stage_setup
@@ -90,7 +90,7 @@ def random_materials(space: ParameterSpace, materials: StageMaterials, count: in
 
 def _build(task: tuple[AffineModel, Harmonic, MaterialBox], tick: Tick) -> ReducedHarmonic:
     tick()
-    return reduce_harmonic(*task, TOP_HZ, BASIS_TOLERANCE)
+    return reduce_harmonic(*task, TOP_HZ, SHARED.tolerance)
 
 
 def _exact(task: tuple[AffineModel, Harmonic, list[Materials]], tick: Tick) -> list[np.ndarray]:
@@ -168,7 +168,7 @@ def errors(
 def measured_step(study: Study, name: str, points: int, jobs: int, cells: int) -> dict[str, Any]:
     """All figures of a step."""
     model, space, materials = step_box(study, name)
-    training = training_materials(space, materials, TRAINING)
+    training = training_materials(space, materials, SHARED.training)
     box = material_box(training, model.mesh.regions, most=cells)
     spaces = [s for h in all_orders(model.mesh.slots) for s in harmonic_spaces(model.mesh, h)]
     several = random_materials(space, materials, points)

@@ -109,7 +109,7 @@ def main() -> None:
     if program is None:
         sys.exit(f"no ratio: {INSTALL}")
     step = stator_geometry(read_geometry(GEOMETRY), GEOMETRY).step(("stack",))
-    half = mesh_step(step, MeshDensity(uniform().cells | CELLS))
+    half = mesh_step(step, MeshDensity(dict(uniform().cells) | CELLS))
     ccx = timed_calculix(program, half.full()[0])
     print(f"CalculiX: {ccx.wall:.1f} s, {ccx.processor:.1f} s of processor time, {half.full_dof} DOF")
     ratio = Timed(study.wall / ccx.wall, study.processor / ccx.processor)

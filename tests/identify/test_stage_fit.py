@@ -7,6 +7,7 @@ import pytest
 import synthetic_stage as stage
 
 from statorhom.errors import IdentificationError
+from statorhom.identify import stage_fit
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.parameters import Parameter, ParameterSpace, Tie
 from statorhom.identify.prior_block import PriorBlock
@@ -116,6 +117,28 @@ def test_the_same_seed_gives_the_same_fit(fine):
     np.testing.assert_array_equal(again.posterior.best.x, fine[0].posterior.best.x)
 
 
+def test_where_the_basis_is_not_certified_it_is_made_anew_around_the_optimum(monkeypatch):
+    made = []
+
+    def rebase(problem, optima):
+        made.append(len(optima))
+        return problem.solver
+
+    def fitted():
+        with Workers() as workers:
+            problem = stage.problem(stage.measured(), fixed=KNOWN)
+            keys = stage.keys(evaluations=80, chains=1).identify
+            return fit_stage(problem, keys, Refine(1.0), rebase, seed=1, workers=workers)
+
+    first = fitted()
+    assert made == []  # the ring's basis is certified for all of its prior
+    monkeypatch.setattr(stage_fit, "TOLERANCE", 0.0)
+    again = fitted()
+    assert 1 <= len(made) <= stage_fit.REBASED
+    # of prior deviations
+    np.testing.assert_allclose(again.posterior.best.x, first.posterior.best.x, atol=2e-3)
+
+
 def test_nothing_to_fit_is_an_error():
     with pytest.raises(IdentificationError, match="no mode to fit"):
         fit(())
@@ -169,7 +192,7 @@ def test_reduced_bases_of_a_stage_are_those_of_its_harmonics():
     progress = []
     with Workers() as workers:
         found = reduce_stage(
-            stage.ring(), [stage.steel()], stage.steel(), spaces, 4000.0, workers, progress.append
+            stage.ring(), [stage.steel()], stage.steel(), spaces, 4000.0, workers, progress=progress.append
         )
     assert progress == [1]
     assert [kind.order for kind in found.kinds] == [2]

@@ -1,11 +1,12 @@
 """Materials that a reduced basis is trained on."""
 
 import numpy as np
+import pytest
 import synthetic_stage as stage
 
 from statorhom.errors import MaterialError
 from statorhom.identify.parameters import Parameter, ParameterSpace
-from statorhom.identify.training import training_materials
+from statorhom.identify.training import neighbouring_materials, training_materials
 
 
 def moduli(materials):
@@ -62,3 +63,24 @@ def test_impossible_materials_are_left_out():
     found = training_materials(stage.space(), picky, 16)
     assert picky.calls == 17
     assert len(found) == 9
+
+
+def test_around_an_optimum_lies_what_the_modes_leave_open():
+    problem = stage.problem()
+    x = problem.space.internal(stage.TRUTH)
+    found = neighbouring_materials(problem, [x], 32)
+    assert len(found) == 33
+    e, g = moduli(found), np.array([m["lamination"].hooke.matrix[3, 3] for m in found])
+    assert e[0] == pytest.approx(stage.TRUTH["lamination.E_p_pa"])
+    prior = moduli(training_materials(stage.space(), stage.LAMINATION, 32))
+    assert np.ptp(np.log(e)) < 0.3 * np.ptp(np.log(prior))
+    assert g.min() < stage.TRUTH["lamination.G_rz_pa"] < g.max()
+
+
+def test_around_several_optima_the_best_comes_first():
+    problem = stage.problem()
+    x = problem.space.internal(stage.TRUTH)
+    other = problem.space.internal(stage.TRUTH | {"lamination.E_p_pa": 200e9})
+    found = moduli(neighbouring_materials(problem, [other, x], 8))
+    assert len(found) == 18
+    np.testing.assert_allclose(found[:2], [200e9, stage.TRUTH["lamination.E_p_pa"]])

@@ -1,8 +1,15 @@
-"""The reduced model that stands in for a stage's mesh, built by all processes or taken from the store."""
+"""The reduced model that stands in for a stage's mesh, built by all processes or taken from the store.
+
+A fit needs two of them. The search walks through all that the prior allows, decades of stiffness for a winding, and
+needs to know no more than where the valleys are: a basis certified to a hundredth where that is cheap to have.
+What it finds is polished in a second basis, made for the materials around the optima and certified there to where
+nothing of it remains in the result. A fleet's machines share one basis over the whole prior.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,15 +21,34 @@ from statorhom.model.harmonic import Harmonic
 from statorhom.model.reduced import MaterialBox, ReducedHarmonic, material_box, reduce_harmonic
 from statorhom.model.reduced_stator import ReducedStator, reduced_stator
 
-# of the frequencies, certified; the mesh factors compare the basis with the full model at the optimum: nothing of
-# it remains there
-BASIS_TOLERANCE = 3e-4
 BAND = 1.1  # the basis is exact up to here, as a part of the highest measured frequency
 STEP, SHARED_STEP = 1.05, 1.2  # bands are rounded up to powers of it, those of a fleet's machines more
 LOOK = 1.5  # modes are computed and paired up to here
-TRAINING = 512  # materials among which the bases pick their snapshots, a power of two
 
-BasisTask = tuple[AffineModel, Harmonic, MaterialBox, float, BasisStore | None]
+
+@dataclass(frozen=True)
+class BasisPlan:
+    """How fine a stage's bases are.
+
+    Parameters
+    ----------
+    training : materials among which they pick their snapshots, a power of two; of a local basis around each optimum.
+    cells : into which the materials are divided at most; more make an evaluation faster and the bases dearer.
+    tolerance : certified relative frequency error to stay below.
+    """
+
+    training: int
+    cells: int
+    tolerance: float
+
+
+# at the result: a bound, mostly far above the error; and the mesh factors compare the basis with the full model there
+TOLERANCE = 1e-3
+SEARCH = BasisPlan(64, 4, 1e-2)
+LOCAL = BasisPlan(16, 4, TOLERANCE)
+SHARED = BasisPlan(512, 12, 3e-4)
+
+BasisTask = tuple[AffineModel, Harmonic, MaterialBox, float, float, BasisStore | None]
 
 
 def reduce_stage(
@@ -32,6 +58,7 @@ def reduce_stage(
     spaces: Sequence[Harmonic],
     highest_hz: float,
     workers: Workers,
+    plan: BasisPlan = SEARCH,
     progress: Progress | None = None,
     store: BasisStore | None = None,
     step: float = STEP,
@@ -41,19 +68,21 @@ def reduce_stage(
     Parameters
     ----------
     model : of the mesh.
-    training : materials that cover the box.
+    training : materials that cover the box, its middle first.
     typical : evaluations are fastest at its densities.
     spaces : harmonic problems.
     highest_hz : highest measured frequency.
-    workers, progress : processes, and what counts the problems that are done.
+    workers : processes.
+    plan : how fine.
+    progress : counts the problems that are done.
     store : where bases are kept between runs; None to build them anew.
     step : the band is rounded up to a power of it.
     """
-    box = material_box(training, model.mesh.regions)
+    box = material_box(training, model.mesh.regions, most=plan.cells)
     band = rounded_up(BAND * highest_hz, step)
     # another process may want the same bases at the same time: in different orders, each finds what the other has built
     order = np.random.default_rng().permutation(len(spaces))
-    tasks = [(model, spaces[i], box, band, store) for i in order]
+    tasks = [(model, spaces[i], box, band, plan.tolerance, store) for i in order]
     found = workers.map(_reduce, tasks, progress=progress)
     problems = [found[place] for place in np.argsort(order)]
     return reduced_stator(model, box, problems, LOOK * highest_hz, typical)
@@ -65,11 +94,11 @@ def rounded_up(value: float, step: float) -> float:
 
 
 def _reduce(task: BasisTask, tick: Tick) -> ReducedHarmonic:
-    model, space, box, highest_hz, store = task
-    key = basis_key(model.mesh, space, box, highest_hz, BASIS_TOLERANCE)
+    model, space, box, highest_hz, tolerance, store = task
+    key = basis_key(model.mesh, space, box, highest_hz, tolerance)
     reduced = None if store is None else store.read(key, space, box, highest_hz)
     if reduced is None:
-        reduced = reduce_harmonic(model, space, box, highest_hz, BASIS_TOLERANCE)
+        reduced = reduce_harmonic(model, space, box, highest_hz, tolerance)
         if store is not None:
             store.write(key, reduced)
     tick()

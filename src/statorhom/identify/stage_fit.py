@@ -17,10 +17,12 @@ from statorhom.identify.optimizers.threshold import ThresholdAccepting
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.parameters import Parameter, ParameterSpace
 from statorhom.identify.polish import Optimum, polish
+from statorhom.identify.stage_basis import TOLERANCE
 from statorhom.identify.stage_materials import DENSITY
 from statorhom.identify.stage_problem import MESH, StageProblem
 from statorhom.model.affine import Materials
 from statorhom.model.convergence import ModeConvergence, ModeKey, mode_keys
+from statorhom.model.reduced_stator import ReducedStator
 from statorhom.study.stages import IdentifyKeys
 
 MOST_STARTS = 4  # optima of the coarse problem that are followed up
@@ -30,9 +32,12 @@ HOPELESS = (
 ROUNDS = 4  # of mesh correction and discrepancy
 MOVED = 30.0  # posterior standard deviations after which the mesh factors are computed again
 NEGLIGIBLE = 50.0  # an optimum whose posterior density is e⁻²⁵ of the best one's plays no part
+REBASED = 2  # rounds in which the reduced model may be made anew around the optima
 SETTLED = 0.1  # the discrepancy is settled when it changes by less than this part
 # convergence study of the modes at given materials
 Refine = Callable[[Materials], tuple[ModeConvergence, ...]]
+# a reduced model that is exact around some optima of the problem
+Rebase = Callable[[StageProblem, Sequence[np.ndarray]], ReducedStator]
 
 OPTIMIZERS = {"annealing": SimulatedAnnealing, "threshold": ThresholdAccepting}
 
@@ -75,6 +80,7 @@ def fit_stage(
     problem: StageProblem,
     keys: IdentifyKeys,
     refine: Refine,
+    rebase: Rebase | None = None,
     *,
     seed: int,
     workers: Workers,
@@ -87,6 +93,7 @@ def fit_stage(
     problem : in the full space, without mesh factors.
     keys : method, evaluations and chains.
     refine : convergence study at given materials.
+    rebase : makes the reduced model anew where it is not certified at the optimum; None to keep it.
     seed : of the search.
     workers : processes.
     progress : called with the evaluations spent.
@@ -112,12 +119,12 @@ def fit_stage(
     )
     hopeful = [o for o in found[:MOST_STARTS] if o.value < found[0].value + HOPELESS]
     starts = [problem.space.internal(coarse.space.values(o.x)) for o in hopeful]
-    problem, convergence, optima = _sharpen(problem, starts, refine)
+    problem, convergence, optima = _sharpen(problem, starts, refine, rebase)
     return StageFit(problem, posterior(optima, problem.space, seed=seed), convergence, keys.evaluations)
 
 
 def _sharpen(
-    problem: StageProblem, starts: Sequence[np.ndarray], refine: Refine
+    problem: StageProblem, starts: Sequence[np.ndarray], refine: Refine, rebase: Rebase | None
 ) -> tuple[StageProblem, tuple[ModeConvergence, ...], tuple[Optimum, ...]]:
     """Alternate polish, mesh correction and discrepancy until they agree."""
     problem = problem.coarse()
@@ -125,6 +132,9 @@ def _sharpen(
     convergence: tuple[ModeConvergence, ...] = ()
     refined_at: np.ndarray | None = None
     for round_ in range(ROUNDS):
+        if rebase is not None and round_ < REBASED and not _certified(problem, optima[0].x):
+            problem = replace(problem, solver=rebase(problem, [o.x for o in optima]))
+            optima, refined_at = _polish_all(problem, [o.x for o in optima]), None
         x = optima[0].x
         if refined_at is None or np.linalg.norm(optima[0].jacobian @ (x - refined_at)) > MOVED:
             convergence, refined_at = refine(problem.stage_materials(x)), x
@@ -135,6 +145,10 @@ def _sharpen(
         if round_ > 0 and abs(problem.discrepancy - before) <= SETTLED * max(before, 1e-4):
             break
     return problem, convergence, optima
+
+
+def _certified(problem: StageProblem, x: np.ndarray) -> bool:
+    return problem.solve(x).largest_certified_error <= TOLERANCE
 
 
 def _polish_all(problem: StageProblem, starts: Sequence[np.ndarray]) -> tuple[Optimum, ...]:

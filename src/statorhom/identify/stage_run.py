@@ -8,23 +8,23 @@ from statorhom.errors import IdentificationError
 from statorhom.identify.announce import Announce
 from statorhom.identify.bands import highest_hz, mode_names
 from statorhom.identify.basis_check import BasisCheck, check_basis
+from statorhom.identify.fit_bases import FitBases
 from statorhom.identify.model_error import ModelError, model_error
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.polish import Optimum, polish
 from statorhom.identify.priors import Carried, common_space, stage_space
 from statorhom.identify.refinement import Band, MeshSeries
 from statorhom.identify.settings import Settings
-from statorhom.identify.stage_basis import SHARED_STEP, STEP, TRAINING, reduce_stage
 from statorhom.identify.stage_fit import StageFit, fit_stage, search_space
 from statorhom.identify.stage_problem import StageProblem
 from statorhom.identify.stage_setup import StageSetup
-from statorhom.identify.training import training_materials
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.basis_store import BasisStore
 from statorhom.model.free_modes import FreeModes
 from statorhom.model.harmonic import problems_of
 
+ModeName = tuple[int, int | None]  # order and node planes
 BAND_MARGIN = 1.15
 # of the convergence study, for orders that no fitted mode has: meshes, and modes of each harmonic problem
 PREDICTED_MESHES, PREDICTED_MODES = 2, 12
@@ -44,7 +44,7 @@ class StageRun:
     error : mesh factors of the full model's modes.
     plain : the optimum that the fitting mesh alone would give, without mesh factors.
     basis : the reduced model verified at the optimum.
-    basis_error : largest certified relative frequency error of the reduced model over the prior.
+    basis_error : largest certified relative frequency error of the reduced model where it was trained.
     """
 
     setup: StageSetup
@@ -97,38 +97,39 @@ def run_stage(
     names = mode_names(model, typical, setup.fitted)
     problems = problems_of(model.mesh, names)
     spread = common_space(*known) if settings.shared_bases else space
-    training = training_materials(spread, setup.materials, TRAINING)
-    step = SHARED_STEP if settings.shared_bases else STEP
-    progress = announce("reduced bases", len(problems))
-    reduced = reduce_stage(model, training, typical, problems, top, workers, progress, store, step)
+    bases = FitBases(model, problems, top, workers, announce, store, settings.shared_bases)
+    reduced = bases.over_prior(spread, setup.materials, typical)
     problem = StageProblem(space, setup.materials, reduced, setup.fitted, ModelError())
-    fitted_orders = {r for r, _ in names}
-    orders = sorted(fitted_orders | {r for r, _ in mode_names(model, typical, setup.free_modes, BAND_MARGIN)})
-    band = BAND_MARGIN * highest_hz(setup.free_modes)
-    bands = {order: Band(band, PREDICTED_MESHES, PREDICTED_MODES) for order in orders}
-    bands |= {order: Band(BAND_MARGIN * top, len(series.models), None) for order in fitted_orders}
+    predicted = mode_names(model, typical, setup.free_modes, BAND_MARGIN)
+    bands = _study_bands(setup, names, predicted, len(series.models))
     fit = fit_stage(
         problem,
         setup.keys.identify,
         lambda materials: series.study(materials, bands, workers),
+        bases.around,
         seed=settings.seed,
         workers=workers,
         progress=announce("search", setup.keys.identify.evaluations),
     )
-    return _finished(setup, fit, series, band, orders, reduced.error, workers)
+    return _finished(setup, fit, series, sorted(bands), workers)
+
+
+def _study_bands(
+    setup: StageSetup, fitted: set[ModeName], predicted: set[ModeName], meshes: int
+) -> dict[int, Band]:
+    """Order → band of the convergence study: all meshes where a mode is fitted, few where it is predicted."""
+    band = BAND_MARGIN * highest_hz(setup.free_modes)
+    bands = {order: Band(band, PREDICTED_MESHES, PREDICTED_MODES) for order, _ in predicted}
+    top = BAND_MARGIN * highest_hz(setup.fitted)
+    return bands | {order: Band(top, meshes, None) for order, _ in fitted}
 
 
 def _finished(
-    setup: StageSetup,
-    fit: StageFit,
-    series: MeshSeries,
-    band: float,
-    orders: list[int],
-    basis_error: float,
-    workers: Workers,
+    setup: StageSetup, fit: StageFit, series: MeshSeries, orders: list[int], workers: Workers
 ) -> StageRun:
     best = fit.posterior.best.x
     materials = fit.problem.stage_materials(best)
+    band = BAND_MARGIN * highest_hz(setup.free_modes)
     solution = series.solution(materials, band, orders, workers)
     same = {c.key: c.frequency_hz[0] for c in fit.convergence}
     plain = polish(replace(fit.problem, error=ModelError()), best)
@@ -141,5 +142,5 @@ def _finished(
         error=model_error(fit.convergence, same),
         plain=plain,
         basis=check_basis(fit.problem.solve(best), solution),
-        basis_error=basis_error,
+        basis_error=fit.problem.solver.error,
     )

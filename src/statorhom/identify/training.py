@@ -1,8 +1,9 @@
-"""Materials that cover a stage's prior, for its reduced basis."""
+"""Materials that a stage's reduced basis is made for: those of its prior, or those around what a search found."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy.special import ndtr, ndtri
@@ -12,11 +13,14 @@ from statorhom.errors import MaterialError
 from statorhom.identify.parameters import ParameterSpace
 from statorhom.identify.stage_basis import rounded_up
 from statorhom.identify.stage_materials import StageMaterials
+from statorhom.identify.stage_problem import StageProblem
 from statorhom.model.affine import Material, Materials
 
 # densities are rounded up to powers of the step in these units: no border lies among those of steel
 DENSITY_STEP, DENSITY_UNIT = 1.1, 1000.0
 REACH = 2.5  # standard deviations of the prior to either side, per coordinate
+# the same of what the search leaves open around an optimum, and by how much its frequencies may be wrong
+NEAR, SEARCHED_SD = 1.5, 0.01
 
 
 def training_materials(space: ParameterSpace, materials: StageMaterials, count: int) -> list[Materials]:
@@ -37,16 +41,52 @@ def training_materials(space: ParameterSpace, materials: StageMaterials, count: 
     densities = {region: m.density for region, m in found[0].items()}
     if space.dimension == 0:
         return found
-    unit = qmc.Sobol(space.dimension, seed=0).random(count)
-    tail = ndtr(-REACH)
-    normal = ndtri(tail + (1 - 2 * tail) * unit)
-    points = space.prior_mean + normal @ np.linalg.cholesky(space.prior_covariance).T
+    points = space.prior_mean + _normal_draws(space.dimension, count, REACH) @ _root(space.prior_covariance)
+    drawn = _possible(space, materials, points)
+    return [*found, *(_with_densities(d, densities) for d in drawn)]
+
+
+def neighbouring_materials(
+    problem: StageProblem, optima: Sequence[np.ndarray], count: int
+) -> list[Materials]:
+    """What fits almost as well as one of the optima, the best optimum first: where a polish may still go.
+
+    Drawn from the Laplace approximation of the problem with what the search's basis and mesh may be wrong by.
+
+    Parameters
+    ----------
+    problem : its solver is good enough for derivatives.
+    optima : (d,) each, the best first.
+    count : number of draws around each, a power of two.
+    """
+    normal = _normal_draws(problem.space.dimension, count, NEAR)
+    blurred = replace(problem, discrepancy=SEARCHED_SD)
+    points = [np.asarray(optima)]
+    for x in optima:
+        jacobian = blurred.smooth_at(x).jacobian(x)
+        points.append(x + normal @ _root(np.linalg.inv(jacobian.T @ jacobian)))
+    return _possible(problem.space, problem.materials, np.vstack(points))
+
+
+def _normal_draws(dimension: int, count: int, reach: float) -> np.ndarray:
+    """Low-discrepancy draws of standard normal coordinates, cut at ±`reach`: (count, dimension)."""
+    unit = qmc.Sobol(dimension, seed=0).random(count) if dimension else np.empty((count, 0))
+    tail = ndtr(-reach)
+    return np.asarray(ndtri(tail + (1 - 2 * tail) * unit))
+
+
+def _root(covariance: np.ndarray) -> np.ndarray:
+    """R with RᵀR = covariance."""
+    return np.asarray(np.linalg.cholesky(covariance).T)
+
+
+def _possible(space: ParameterSpace, materials: StageMaterials, points: np.ndarray) -> list[Materials]:
+    found = []
     for point in space.bounds.clip(points):
         try:
-            drawn = materials.of(space.values(point))
+            found.append(materials.of(space.values(point)))
         except MaterialError:
             continue
-        found.append(_with_densities(drawn, densities))
     return found
 
 

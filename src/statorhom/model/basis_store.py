@@ -22,7 +22,7 @@ from statorhom.model.reduced import MaterialBox, ReducedHarmonic
 from statorhom.model.residual_norm import ResidualNorm
 from statorhom.study.atomic import write_bytes
 
-FORMAT = 1  # raised when the same inputs shall give another basis
+FORMAT = 2  # raised when the same inputs shall give another basis
 _DAMAGED = (
     OSError,
     ValueError,
@@ -42,7 +42,9 @@ def basis_key(
     """SHA-256 of everything that a reduced harmonic depends on, in hexadecimal."""
     digest = hashlib.sha256()
     words = (FORMAT, mesh.slots, mesh.regions, harmonic.order, harmonic.parity, harmonic.axial)
-    digest.update(repr((*words, box.span.regions, float(highest_hz), float(tolerance))).encode())
+    digest.update(
+        repr((*words, box.span.regions, box.span.groups, float(highest_hz), float(tolerance))).encode()
+    )
     arrays = [mesh.nodes, mesh.elements, mesh.region, mesh.tooth_plane, mesh.slot_plane]
     for cell in box.training:
         arrays += [array for point in cell for array in (point.hooke, point.density)]

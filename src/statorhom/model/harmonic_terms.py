@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,9 +47,9 @@ class HarmonicTerms:
 def harmonic_terms(model: AffineModel, harmonic: Harmonic, span: MaterialSpan) -> HarmonicTerms:
     """Project the terms of a model."""
     stiffness = [
-        harmonic.project(model.pattern.matrix(np.tensordot(direction, model.stiffness[region], axes=1)))
-        for region in span.regions
-        for direction in span.directions[region].T
+        harmonic.project(model.pattern.matrix(_stiffness(model, direction, members)))
+        for first, members in span.groups.items()
+        for direction in span.directions[first].T
     ]
     mass = [harmonic.project(model.mass_term(region)) for region in span.regions]
     pattern = sp.csr_array(sum(abs(term) for term in (*stiffness, *mass)))
@@ -63,6 +64,11 @@ def harmonic_terms(model: AffineModel, harmonic: Harmonic, span: MaterialSpan) -
         return data
 
     return HarmonicTerms(span, spread(stiffness), spread(mass), pattern.indices, pattern.indptr)
+
+
+def _stiffness(model: AffineModel, direction: np.ndarray, regions: Sequence[str]) -> np.ndarray:
+    """Entries of K per unit of a direction in which regions move together."""
+    return np.asarray(sum(np.tensordot(direction, model.stiffness[region], axes=1) for region in regions))
 
 
 def _keys(matrix: sp.csr_array, n: int) -> np.ndarray:

@@ -1,7 +1,8 @@
 """The materials that a reduced basis knows: a few combinations of Hooke entries per region.
 
 A transversely isotropic region moves in five directions of the nine-dimensional space of Hooke entries, an isotropic
-one in two: operators are projected once per direction, not per entry.
+one in two, and regions that always are of one material, as slots and overhang mostly are, move together: operators are
+projected once per direction, not per entry and region.
 """
 
 from __future__ import annotations
@@ -48,59 +49,74 @@ class MaterialSpan:
     Parameters
     ----------
     regions : in the order of all arrays.
-    entries : region → (s,) the Hooke entries that determine the others.
-    directions : region → (9, s) all Hooke entries per unit of these.
+    groups : regions that move together, by their first one.
+    entries : first region of a group → (s,) the Hooke entries that determine the others.
+    directions : first region of a group → (9, s) all Hooke entries per unit of these.
     """
 
     regions: tuple[str, ...]
+    groups: Mapping[str, tuple[str, ...]]
     entries: Mapping[str, np.ndarray]
     directions: Mapping[str, np.ndarray]
 
     @property
     def size(self) -> int:
-        """Number of directions of all regions."""
+        """Number of directions of all groups."""
         return sum(len(e) for e in self.entries.values())
 
     def weights(self, point: MaterialPoint) -> np.ndarray:
-        """Weights of the directions (size,): the determining Hooke entries of all regions (Pa).
+        """Weights of the directions (size,): the determining Hooke entries of all groups (Pa).
 
         Raises
         ------
         SolverError
             If a material is of another kind than those that the basis was trained on.
         """
+        hooke = dict(zip(self.regions, point.hooke, strict=True))
         found = []
-        for hooke, region in zip(point.hooke, self.regions, strict=True):
-            weight = hooke[self.entries[region]]
-            if np.abs(self.directions[region] @ weight - hooke).max() > OUTSIDE * np.abs(hooke).max():
-                raise SolverError(
-                    f"region {region!r}: its material has another symmetry than those of the reduced basis; "
-                    "build a basis for it"
-                )
+        for first, members in self.groups.items():
+            weight = hooke[first][self.entries[first]]
+            spanned = self.directions[first] @ weight
+            for region in members:
+                if np.abs(spanned - hooke[region]).max() > OUTSIDE * np.abs(hooke[region]).max():
+                    raise SolverError(
+                        f"region {region!r}: its material has another symmetry than those of the reduced basis, or "
+                        "is no longer that of a region that shared it; build a basis for it"
+                    )
             found.append(weight)
         return np.concatenate(found)
 
     def hooke_gradients(self, gradient: np.ndarray) -> dict[str, np.ndarray]:
         """Region → derivative with respect to its nine entries, from that with respect to the weights (size,).
 
-        All of it is put on the determining entries: right for every change of material within the span, and no
-        other can happen.
+        All of it is put on the determining entries of a group's first region: right for every change of material
+        within the span, and no other can happen.
         """
-        found, first = {}, 0
-        for region in self.regions:
-            entries = self.entries[region]
-            found[region] = np.zeros(len(HOOKE_ENTRIES))
-            found[region][entries] = gradient[first : first + len(entries)]
-            first += len(entries)
+        found = {region: np.zeros(len(HOOKE_ENTRIES)) for region in self.regions}
+        start = 0
+        for first, entries in self.entries.items():
+            found[first][entries] = gradient[start : start + len(entries)]
+            start += len(entries)
         return found
 
 
 def material_span(points: Sequence[MaterialPoint], regions: Sequence[str]) -> MaterialSpan:
     """The narrowest symmetry of every region that holds all its materials."""
-    chosen = {region: _narrowest(np.array([p.hooke[i] for p in points])) for i, region in enumerate(regions)}
+    hooke = {region: np.array([p.hooke[i] for p in points]) for i, region in enumerate(regions)}
+    groups = _groups(hooke)
+    chosen = {first: _narrowest(hooke[first]) for first in groups}
     return MaterialSpan(
-        tuple(regions), {r: c[0] for r, c in chosen.items()}, {r: c[1] for r, c in chosen.items()}
+        tuple(regions), groups, {r: c[0] for r, c in chosen.items()}, {r: c[1] for r, c in chosen.items()}
     )
+
+
+def _groups(hooke: Mapping[str, np.ndarray]) -> dict[str, tuple[str, ...]]:
+    """Regions of one material at every point, by their first one."""
+    found: dict[str, tuple[str, ...]] = {}
+    for region, values in hooke.items():
+        first = next((f for f in found if np.array_equal(hooke[f], values)), region)
+        found[first] = (*found.get(first, ()), region)
+    return found
 
 
 def _narrowest(hooke: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -1,0 +1,65 @@
+"""The reduced models of one fit: one over the prior for the search, one around what it found for the result."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from statorhom.identify.announce import Announce
+from statorhom.identify.optimizers.workers import Workers
+from statorhom.identify.parameters import ParameterSpace
+from statorhom.identify.stage_basis import LOCAL, SEARCH, SHARED, SHARED_STEP, STEP, BasisPlan, reduce_stage
+from statorhom.identify.stage_materials import StageMaterials
+from statorhom.identify.stage_problem import StageProblem
+from statorhom.identify.training import neighbouring_materials, training_materials
+from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.basis_store import BasisStore
+from statorhom.model.harmonic import Harmonic
+from statorhom.model.reduced_stator import ReducedStator
+
+
+@dataclass(frozen=True)
+class FitBases:
+    """Makes the reduced models of a stage.
+
+    Parameters
+    ----------
+    model : of the fitting mesh.
+    spaces : harmonic problems of the fitted modes.
+    highest_hz : highest measured frequency.
+    workers : processes.
+    announce : told what begins.
+    store : where bases are kept between runs; None to build them anew.
+    shared : whether they shall serve other machines too: exact over all of the prior.
+    """
+
+    model: AffineModel
+    spaces: Sequence[Harmonic]
+    highest_hz: float
+    workers: Workers
+    announce: Announce
+    store: BasisStore | None = None
+    shared: bool = False
+
+    def over_prior(
+        self, space: ParameterSpace, materials: StageMaterials, typical: Materials
+    ) -> ReducedStator:
+        """Reduced model for all that a prior allows, fastest at the densities of `typical`."""
+        plan = SHARED if self.shared else SEARCH
+        training = training_materials(space, materials, plan.training)
+        return self._reduce("reduced bases", training, typical, plan)
+
+    def around(self, problem: StageProblem, optima: Sequence[np.ndarray]) -> ReducedStator:
+        """Reduced model for what lies around optima of a problem, the best first."""
+        training = neighbouring_materials(problem, optima, LOCAL.training)
+        return self._reduce("bases around the optima", training, training[0], LOCAL)
+
+    def _reduce(
+        self, what: str, training: Sequence[Materials], typical: Materials, plan: BasisPlan
+    ) -> ReducedStator:
+        progress = self.announce(what, len(self.spaces))
+        step = SHARED_STEP if self.shared else STEP
+        known = (self.model, training, typical, self.spaces, self.highest_hz, self.workers)
+        return reduce_stage(*known, plan, progress, self.store, step)
