@@ -35,6 +35,7 @@ from statorhom.diagnose.scan import Scan, scan
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.settings import Settings
+from statorhom.physics.action import Action
 from statorhom.physics.library import all_candidates, library
 from statorhom.results.diagnosis import (
     Alternative,
@@ -70,8 +71,8 @@ def diagnose(
     tests: Mapping[str, MeasuredTest],
     settings: Settings,
     announce: Announce = silent,
-) -> tuple[Diagnosis, Details]:
-    """Diagnose a study whose recordings have become tables.
+) -> tuple[Diagnosis, Details, tuple[Action, ...]]:
+    """Diagnose a study whose recordings have become tables; the actions are those of the named effects.
 
     Raises
     ------
@@ -83,7 +84,9 @@ def diagnose(
         found = _find(files, geometry, tests, settings, announce)
         diagnosis = _diagnosis(files, found)
         details = _details(found, time.perf_counter() - began)
-    return diagnosis, details
+        best = found.best.refit
+        actions = best.hypothesis.actions(best.z) if found.verdict == "named" else ()
+    return diagnosis, details, actions
 
 
 def _find(
