@@ -15,6 +15,7 @@ from statorhom.identify.chain import chain
 from statorhom.identify.recorded_tests import with_recorded_tables
 from statorhom.identify.settings import Settings
 from statorhom.report import write_report
+from statorhom.report.diagnosis.page import write_diagnosis_page
 from statorhom.results.diagnosis import Diagnosis
 from statorhom.results.files import check_folder, read_results
 from statorhom.results.schema import Results
@@ -137,9 +138,12 @@ class Study:
         out: str | os.PathLike[str] | None = None,
         *,
         seed: int = 1,
+        apply: bool = False,
         announce: Announce = silent,
     ) -> Diagnosis:
-        """Say what physics the study's model left out; writes diagnosis.json.
+        """Say what physics the study's model left out; writes diagnosis.json and report.html.
+
+        With `apply` the study is written too as it is with the named effect.
 
         Raises
         ------
@@ -147,7 +151,9 @@ class Study:
             If files, masses or tests do not allow it.
         """
         folder = self.default_folder if out is None else Path(out)
-        return diagnose_study(self.files, folder, Settings(seed=seed), announce)[0]
+        found, details = diagnose_study(self.files, folder, Settings(seed=seed), announce, apply=apply)
+        write_diagnosis_page(found, details, self.files.geometry.core.length_mm, folder)
+        return found
 
     @staticmethod
     def read(folder: str | os.PathLike[str]) -> Results:

@@ -124,14 +124,22 @@ def run(
 
 
 @app.command()
-def diagnose(study: StudyPath, out: Out = None, seed: Seed = 1, json: Json = False) -> None:
-    """Say what physics the model left out, where, and how sure that is; writes diagnosis.json."""
+def diagnose(
+    study: StudyPath,
+    out: Out = None,
+    apply: Annotated[
+        bool, typer.Option("--apply", help="Also write study.toml with the named effect modelled.")
+    ] = False,
+    seed: Seed = 1,
+    json: Json = False,
+) -> None:
+    """Say what physics the model left out, where, and how sure that is; writes diagnosis.json and report.html."""
     from statorhom.api import Study
     from statorhom.command_line.tables import print_diagnosis
 
     loaded = Study.load(study)
     with progress_bars(quiet=json) as announce:
-        found = loaded.diagnose(out, seed=seed, announce=announce)
+        found = loaded.diagnose(out, seed=seed, apply=apply, announce=announce)
     if json:
         typer.echo(found.model_dump_json(by_alias=True))
     else:

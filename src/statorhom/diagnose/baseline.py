@@ -12,7 +12,7 @@ from statorhom.diagnose.constants import Constants, study_constants
 from statorhom.diagnose.features import SCATTER_SD
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.measured import MeasuredTest
-from statorhom.diagnose.refit import Refit, refit
+from statorhom.diagnose.refit import Refit, evaluated, refit
 from statorhom.diagnose.stage_model import StageModel, mesh_error, stage_model, with_reference
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.errors import IdentificationError, StatorhomError
@@ -21,6 +21,7 @@ from statorhom.identify.settings import Settings
 from statorhom.identify.stage_setup import StageSetup, stage_setup
 from statorhom.model.affine import Materials
 from statorhom.study.study import StudyFiles
+from statorhom.study.study_file import FREE
 
 # per step: materials that are solved, tried, refitted in wide valleys, and sharpened
 SNAPSHOTS, TRIALS, STARTS, SHARPENED = 6, 200, 16, 3
@@ -34,9 +35,18 @@ MAX_SCATTER_ORDER = 8
 
 @dataclass(frozen=True, eq=False)
 class Baseline:
-    """The declared model at its optimum; the references of its stages lie there."""
+    """The declared model.
+
+    Parameters
+    ----------
+    study : references of its stages lie at `free`.
+    free : where the free tests put the constants: a support is known worse than a material, and a wrong one would
+        draw them away. Explanations are sought from here.
+    refit : optimum over all tests.
+    """
 
     study: StudyModel
+    free: Refit
     refit: Refit
 
 
@@ -65,8 +75,18 @@ def baseline(
     z = np.zeros(len(constants))
     for setup in tested:
         own = [tests[t.name] for t in setup.tests if t.name in tests]
+        own = [t for t in own if t.support == FREE] or own
         study, z = _with_step(study, z, setup, own, settings)
-    return Baseline(study, refit(Hypothesis(study), z))
+    z = refit(Hypothesis(study), z).z
+    whole = study.with_stages(
+        tuple(
+            replace(s, tests=tuple(tests[t.name] for t in s.setup.tests if t.name in tests))
+            for s in study.stages
+        )
+    )
+    free = evaluated(Hypothesis(whole), z)
+    same = all(t.support == FREE for s in whole.stages for t in s.tests)
+    return Baseline(whole, free, free if same else refit(Hypothesis(whole), z))
 
 
 def _with_step(

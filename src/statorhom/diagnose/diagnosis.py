@@ -35,6 +35,7 @@ from statorhom.diagnose.scan import Scan, scan
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.settings import Settings
+from statorhom.physics.action import Action
 from statorhom.physics.library import all_candidates, library
 from statorhom.results.diagnosis import (
     Alternative,
@@ -70,8 +71,8 @@ def diagnose(
     tests: Mapping[str, MeasuredTest],
     settings: Settings,
     announce: Announce = silent,
-) -> tuple[Diagnosis, Details]:
-    """Diagnose a study whose recordings have become tables.
+) -> tuple[Diagnosis, Details, tuple[Action, ...]]:
+    """Diagnose a study whose recordings have become tables; the actions are those of the named effects.
 
     Raises
     ------
@@ -83,7 +84,9 @@ def diagnose(
         found = _find(files, geometry, tests, settings, announce)
         diagnosis = _diagnosis(files, found)
         details = _details(found, time.perf_counter() - began)
-    return diagnosis, details
+        best = found.best.refit
+        actions = best.hypothesis.actions(best.z) if found.verdict == "named" else ()
+    return diagnosis, details, actions
 
 
 def _find(
@@ -99,10 +102,10 @@ def _find(
     candidates = all_candidates(files)
     counts = dict(Counter(c.effect for c in candidates))
     progress = announce("scan of effects", 1)
-    signatures = scan(base.refit, [c for c in candidates if c.parameters], settings.seed)
+    signatures = scan(base.free, [c for c in candidates if c.parameters], settings.seed)
     progress(1)
     progress = announce("explanations", 1)
-    found = single_effects(base.refit, signatures, [c for c in candidates if not c.parameters], counts)
+    found = single_effects(base.free, signatures, [c for c in candidates if not c.parameters], counts)
     if found and found[0].adequacy < ADEQUATE:
         used = found[0].effects
         second = [s for s in signatures.worth_refitting(SECONDS, 0.0) if s.candidate.effect not in used]

@@ -206,7 +206,7 @@ class Hypothesis:
         test: MeasuredTest,
         values: Mapping[str, float],
         actions: Sequence[Action],
-        mark: Hashable,
+        mark: tuple[Hashable, ...],
     ) -> Partners:
         reference = self._reference(stage, test, actions, mark)
         if reference is None:
@@ -215,14 +215,18 @@ class Hypothesis:
         return partners(test, reference, logs)
 
     def _reference(
-        self, stage: StageModel, test: MeasuredTest, actions: Sequence[Action], mark: Hashable
+        self, stage: StageModel, test: MeasuredTest, actions: Sequence[Action], mark: tuple[Hashable, ...]
     ) -> SupportedReference | None:
         declared = self.study.files.study.support(test.support)
         held = [a.supports[test.support] for a in actions if test.support in a.supports]
         keys = held[-1] if held else declared
         assert keys is not None
-        here = [a for a in actions if a.touches(stage.name, test.name)]
-        return supported_reference(stage, test, keys, here, mark)
+        here = [
+            (a, m)
+            for a, m in zip(actions, mark, strict=True)
+            if a.touches(stage.name, test.name) and (a.changes or test.support in a.supports)
+        ]
+        return supported_reference(stage, test, keys, [a for a, _ in here], tuple(m for _, m in here))
 
     def _supported(
         self,
@@ -230,7 +234,7 @@ class Hypothesis:
         test: MeasuredTest,
         modes: Mapping[ModeKey, PredictedMode],
         actions: Sequence[Action],
-        mark: Hashable,
+        mark: tuple[Hashable, ...],
     ) -> list[Feature]:
         assert self.held is not None
         reference = self._reference(stage, test, actions, mark)

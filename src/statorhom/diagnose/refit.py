@@ -78,6 +78,20 @@ def refit(hypothesis: Hypothesis, start: FloatArray, rounds: int = ROUNDS) -> Re
     return best
 
 
+def evaluated(hypothesis: Hypothesis, z: FloatArray) -> Refit:
+    """A hypothesis at a point that need not be its optimum.
+
+    Raises
+    ------
+    StatorhomError
+        If no stator has these constants.
+    """
+    paired = hypothesis.paired(z)
+    residuals = paired.residuals(z)
+    objective = _objective(residuals, z, paired.prior_weights) + paired.missed
+    return Refit(paired, z, paired.jacobian(z), float(residuals @ residuals), objective)
+
+
 def _polished(hypothesis: Hypothesis, z: FloatArray) -> Refit:
     weights, (low, high) = hypothesis.prior_weights, hypothesis.limits()
     z = np.clip(z, low, high)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from statorhom.diagnose.apply import write_amended
 from statorhom.diagnose.diagnosis import diagnose
 from statorhom.diagnose.recorded import measured_tests
 from statorhom.geometry.stator import stator_geometry
@@ -15,9 +16,18 @@ from statorhom.study.study import StudyFiles
 
 
 def diagnose_study(
-    files: StudyFiles, folder: Path, settings: Settings, announce: Announce = silent
+    files: StudyFiles,
+    folder: Path,
+    settings: Settings,
+    announce: Announce = silent,
+    *,
+    apply: bool = False,
 ) -> tuple[Diagnosis, Details]:
     """Read what was measured, diagnose it and write diagnosis.json.
+
+    Parameters
+    ----------
+    apply : also write the amended study where an effect was named.
 
     Raises
     ------
@@ -27,6 +37,8 @@ def diagnose_study(
     check_folder(folder)
     geometry = stator_geometry(files.geometry, files.geometry_path)
     files, tests = measured_tests(files, folder, announce)
-    diagnosis, details = diagnose(files, geometry, tests, settings, announce)
+    diagnosis, details, actions = diagnose(files, geometry, tests, settings, announce)
     write_diagnosis(diagnosis, details, folder)
+    if apply and actions:
+        write_amended(files, actions, folder)
     return diagnosis, details

@@ -46,6 +46,7 @@ class Action:
     joint : a contact in the place of a bond.
     supports : name of a support → how it really holds.
     names : (test, label of a measured mode) → its true (r, n).
+    symmetries : region → material symmetry that a study would have to declare to contain the effect.
     sensor_kg : mass of an accelerometer that roves over the measured points.
     modulus_at : region → factor of its stiffness at a frequency (Hz).
     stages, tests : where it is present; None: everywhere.
@@ -58,6 +59,7 @@ class Action:
     joint: Joint | None = None
     supports: Mapping[str, SupportKeys] = field(default_factory=dict)
     names: Mapping[tuple[str, str], tuple[int, int]] = field(default_factory=dict)
+    symmetries: Mapping[str, str] = field(default_factory=dict)
     sensor_kg: float = 0.0
     modulus_at: Mapping[str, Callable[[float], float]] = field(default_factory=dict)
     stages: frozenset[str] | None = None

@@ -43,7 +43,7 @@ class InterlaminarShear(Effect):
             soft = sheared(materials["lamination"], values["G_rz_pa"], values["E_z_pa"])
             return {**materials, "lamination": soft}
 
-        return Action(materials=rule)
+        return Action(materials=rule, symmetries={"lamination": "transversely_isotropic"})
 
 
 EFFECT = InterlaminarShear()

@@ -1,0 +1,1 @@
+"""The page that a diagnosis is read on."""
