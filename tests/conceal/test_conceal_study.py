@@ -117,3 +117,12 @@ def test_the_command_says_where_the_study_is(tmp_path: Path, monkeypatch: pytest
     assert refused.code == 2
     assert len(refused.stderr.strip().splitlines()) == 1
     assert not (tmp_path / "other").exists()
+
+
+def test_what_is_seen_at_once_has_a_large_projected_signal(tmp_path: Path) -> None:
+    _, _, truth = concealed(tmp_path, Wish("mislabelled_mode"))
+    (effect,) = truth["effects"]
+    listed = (tmp_path / "out" / "stack-free.csv").read_text(encoding="utf-8").splitlines()
+    row = listed[effect["parameters"]["mode"]].split(",")
+    assert (int(row[2]), int(row[3])) != (effect["parameters"]["order"], effect["parameters"]["axial"])
+    assert truth["detectability"]["projected_snr"] > 20

@@ -20,6 +20,7 @@ from statorhom.conceal.declared_stage import Key, declared_stage
 from statorhom.conceal.listed import ListedMode
 from statorhom.conceal.measure_case import Measured, pressed
 from statorhom.conceal.sensors import PLANES
+from statorhom.conceal.tables import relabelled
 from statorhom.conceal.truth import Case
 from statorhom.errors import StatorhomError
 from statorhom.mesh import MeshDensity
@@ -73,6 +74,8 @@ def detectability(case: Case, tests: Sequence[Measured], density: MeshDensity | 
 def _residual(case: Case, measured: Measured, density: MeshDensity | None) -> Residual | None:
     test = case.stages[measured.stage].tests[measured.test]
     seen = measured.listed if test.is_table else tuple(m for m in measured.modes if m.is_visible)
+    if test.relabelled is not None:
+        seen = relabelled(seen, test.relabelled)[0]
     pairs = _by_name(seen)
     if test.declared is not None or not pairs:
         return None
