@@ -104,7 +104,7 @@ def declared_stage(case: Case, index: int, density: MeshDensity | None) -> Decla
     step = geometry.step(tuple(stage.kind for stage in stages))
     weights = [Weighing(s.name, s.kind, s.mass_kg, s.mass_sd_kg) for s in stages]
     typed = {d.region: d.density_kg_m3 for d in densities(weights, step.exact_volumes())}
-    model = assemble(mesh_step(step, density or truth_mesh(tuple(stage.kind for stage in stages))))
+    model = assemble(mesh_step(step, density or truth_mesh(case.stages[index])))
     constants, materials = {}, {}
     for region in model.mesh.regions:
         source = region if study.symmetry(index, region) is not None else "winding"  # type: ignore[arg-type]

@@ -22,8 +22,10 @@ from statorhom.model.free_modes import FreeProblem, problem_at
 STACK_MESH = graded()
 # with a winding in the slots the corners are less sharp, and the mesh is twice as long
 WOUND_MESH = graded(slot=1)
+# parts that may rattle have so many local shapes that a finer mesh takes minutes and ten gigabytes
+CONTACT_MESH = graded(tooth=1, slot=1, radial=3, yoke=3)
 # band over the lowest frequency of order 2: eight names (r, n) of a stack, some doublets of a winding's dense modes
-STACK_REACH, WOUND_REACH = 5.2, 3.2
+STACK_REACH, WOUND_REACH, CONTACT_REACH = 5.2, 3.2, 2.4
 MARGIN = 1.4  # how far above the band the symmetric modes reach that carry the broken ones
 
 
@@ -82,13 +84,21 @@ class StageGround:
         return replace(self, materials=changed)
 
 
-def truth_mesh(kinds: tuple[str, ...]) -> MeshDensity:
+def truth_mesh(stage: TrueStage) -> MeshDensity:
     """The mesh of a true stator after some steps."""
-    return STACK_MESH if kinds == ("stack",) else WOUND_MESH
+    if stage.contact is not None:
+        return CONTACT_MESH
+    return STACK_MESH if stage.kinds == ("stack",) else WOUND_MESH
+
+
+def _reach(stage: TrueStage) -> float:
+    if stage.contact is not None:
+        return CONTACT_REACH
+    return STACK_REACH if stage.kinds == ("stack",) else WOUND_REACH
 
 
 def stage_ground(
-    geometry: StatorGeometry, stage: TrueStage, density: MeshDensity | None = None, reach: float | None = None
+    geometry: StatorGeometry, stage: TrueStage, density: MeshDensity | None = None
 ) -> StageGround:
     """Mesh a stage and give it its materials.
 
@@ -96,14 +106,13 @@ def stage_ground(
     ----------
     geometry, stage : the true ones.
     density : of the mesh; None: what is usual of the step.
-    reach : upper end of the band over the lowest frequency of order 2; None: what is usual of the step.
 
     Raises
     ------
     StatorhomError
         If the geometry does not allow the step.
     """
-    mesh = mesh_step(geometry.step(stage.kinds), density or truth_mesh(stage.kinds))
+    mesh = mesh_step(geometry.step(stage.kinds), density or truth_mesh(stage))
     joint = None
     if stage.contact is not None:
         law = stage.contact
@@ -112,8 +121,7 @@ def stage_ground(
     model = assemble(mesh)
     materials = {region: stage.materials[region].material for region in mesh.regions}
     elliptic = _elliptic_hz(problem_at(model, materials), joint)
-    usual = STACK_REACH if stage.kinds == ("stack",) else WOUND_REACH
-    highest = float(np.ceil((reach or usual) * elliptic / 100.0) * 100.0)
+    highest = float(np.ceil(_reach(stage) * elliptic / 100.0) * 100.0)
     return StageGround(model, materials, joint, elliptic, highest)
 
 

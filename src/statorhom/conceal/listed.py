@@ -10,7 +10,9 @@ from statorhom.conceal.ritz import RitzModes
 from statorhom.modes.supported_names import name_supported
 
 VISIBLE = 0.1  # of a uniform ring's radial motion: what an accelerometer shows clearly
-PURE = 0.6  # of the radial motion that one order must have before anybody gives a mode of a free test its name
+PURE = (
+    0.6  # of the radial motion that one order must have before anybody gives a mode of a free test its name
+)
 BODIES = 0.5  # of the lowest elliptic frequency: below lies a body on its springs, which no table lists
 HEAVY_DAMPING = 0.12  # loss factor above which nobody finds a mode in the FRFs
 
