@@ -32,6 +32,7 @@ from statorhom.diagnose.study_model import StudyModel
 from statorhom.diagnose.supported import (
     Partners,
     SupportedReference,
+    attached,
     partners,
     predicted_logs,
     supported_features,
@@ -197,7 +198,7 @@ class Hypothesis:
     def _unsupported(
         self, stage: StageModel, test: MeasuredTest, values: Mapping[str, float], actions: Sequence[Action]
     ) -> dict[ModeKey, PredictedMode]:
-        """Free modes that a supported test is made of; what breaks the symmetry is solved with the support."""
+        """Free modes that a supported test is made of; what is attached is solved together with the support."""
         return predicted(self.study, stage, values, [replace(a, changes=None) for a in actions], test.name)
 
     def _supported_partners(
@@ -221,12 +222,10 @@ class Hypothesis:
         held = [a.supports[test.support] for a in actions if test.support in a.supports]
         keys = held[-1] if held else declared
         assert keys is not None
-        here = [
-            (a, m)
-            for a, m in zip(actions, mark, strict=True)
-            if a.touches(stage.name, test.name) and (a.changes or test.support in a.supports)
-        ]
-        return supported_reference(stage, test, keys, [a for a, _ in here], tuple(m for _, m in here))
+        here = [(a, m) for a, m in zip(actions, mark, strict=True) if a.touches(stage.name, test.name)]
+        parts = [(attached(stage, a), m, test.support in a.supports) for a, m in here]
+        seen = tuple(m for part, m, held_otherwise in parts if part or held_otherwise)
+        return supported_reference(stage, test, keys, [c for part, _, _ in parts for c in part], seen)
 
     def _supported(
         self,

@@ -7,7 +7,7 @@ theirs, weighted by their shares in the strain energy. A support declared rigid 
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -16,7 +16,10 @@ from statorhom.diagnose.features import LOST, Feature, measured_sd
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.diagnose.stage_model import StageModel
+from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.model.affine import Materials
 from statorhom.model.broken.attachments import springs
+from statorhom.model.broken.change import Attachment, Change
 from statorhom.model.broken.solve import BrokenModes, solve_broken
 from statorhom.model.convergence import ModeKey
 from statorhom.model.supports import support_on
@@ -62,13 +65,31 @@ def elastic_keys(keys: SupportKeys) -> SupportKeys:
     return LineSupport.model_validate(table | {"normal_stiffness_n_per_m2": RIGID_PER_M2})
 
 
+def attached(stage: StageModel, action: Action) -> list[Change]:
+    """What an action attaches to the surface."""
+    changes = action.changes(stage.model.mesh, stage.reference) if action.changes else ()
+    return [c for c in changes if isinstance(c, Attachment)]
+
+
+def without_attachments(action: Action) -> Action:
+    """The rest: stiffness that varies counts by how far it shifts the free modes."""
+    rule = action.changes
+    if rule is None:
+        return action
+
+    def rest(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
+        return tuple(c for c in rule(mesh, materials) if not isinstance(c, Attachment))
+
+    return replace(action, changes=rest)
+
+
 def supported_reference(
-    stage: StageModel, test: MeasuredTest, keys: SupportKeys, actions: Sequence[Action], mark: Hashable
+    stage: StageModel, test: MeasuredTest, keys: SupportKeys, more: Sequence[Change], mark: Hashable
 ) -> SupportedReference | None:
-    """Modes of a supported test; None for supports that hold end faces."""
+    """Modes of a supported test with what else is attached; None for supports that hold end faces."""
     place = ("supported", test.name, mark)
     if mark is None or place not in stage.kept_responses:
-        found = _solved(stage, test, keys, actions)
+        found = _solved(stage, test, keys, more)
         while len(stage.kept_responses) >= 32:
             stage.kept_responses.pop(next(iter(stage.kept_responses)))
         stage.kept_responses[place] = found
@@ -77,14 +98,13 @@ def supported_reference(
 
 
 def _solved(
-    stage: StageModel, test: MeasuredTest, keys: SupportKeys, actions: Sequence[Action]
+    stage: StageModel, test: MeasuredTest, keys: SupportKeys, more: Sequence[Change]
 ) -> SupportedReference | None:
     mesh = stage.model.mesh
     support = support_on(mesh, elastic_keys(keys))
     if support.ends is not None or support.points.stiffness is None:
         return None
-    changes = [c for a in actions if a.changes for c in a.changes(mesh, stage.reference)]
-    modes = solve_broken(stage.broken, [springs(mesh, support.points), *changes], tolerance=None)
+    modes = solve_broken(stage.broken, [springs(mesh, support.points), *more], tolerance=None)
     log_f = np.log(modes.frequencies_hz)
     shares = {key: _share(modes, stage, key) for key in stage.columns}
     if test.shapes is None:
