@@ -10,9 +10,9 @@ import numpy.typing as npt
 from statorhom.extraction.extraction import ExtractedMode, Extraction, residual_lines
 from statorhom.extraction.mode_estimates import mode_estimates
 from statorhom.extraction.mode_search import ModeSearch
-from statorhom.extraction.noise import noise_sd
+from statorhom.extraction.noise import expected_sd, noise_sd
 from statorhom.extraction.point_grid import PointGrid, point_grid
-from statorhom.extraction.stabilization import stabilize
+from statorhom.extraction.stabilization import LEAST_SHARE, stabilize
 from statorhom.recordings.frf_set import FrfSet
 
 FloatArray = npt.NDArray[np.float64]
@@ -42,9 +42,10 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
     """
     sets = [frf_sets] if isinstance(frf_sets, FrfSet) else list(frf_sets)
     grid = point_grid(sets, band_hz)
-    sd = noise_sd(grid)
+    noise = noise_sd(grid)
+    sd = expected_sd(grid, noise)
     poles, parts, stabilization = stabilize(grid, sd)
-    search = ModeSearch(grid, sd, poles, parts, stabilization.stable_squared)
+    search = ModeSearch(grid, sd, poles, parts, stabilization.lasting_squared)
     decay = float(np.mean([one.window_decay_per_s for one in sets]))
     found = [mode for fitted in search.run() for mode in mode_estimates(fitted, grid, stabilization, decay)]
     found.sort(key=lambda mode: mode.frequency_hz)
@@ -62,14 +63,15 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
         band,
         mass_line,
         stiffness_line,
-        float(np.median((sd / np.maximum(np.abs(grid.receptance), np.finfo(float).tiny))[grid.measured])),
+        float(np.median((noise / np.maximum(np.abs(grid.receptance), np.finfo(float).tiny))[grid.measured])),
         stabilization,
         tuple(_remarks(modes, outside, band)),
     )
 
 
 def _is_mode(mode: ExtractedMode, band: tuple[float, float]) -> bool:
-    return band[0] <= mode.frequency_hz <= band[1] and mode.frequency_sd_hz < _LOCATED * mode.bandwidth_hz
+    located = mode.frequency_sd_hz < _LOCATED * mode.bandwidth_hz
+    return band[0] <= mode.frequency_hz <= band[1] and located and mode.stability >= LEAST_SHARE
 
 
 def _residual_terms(
@@ -100,7 +102,8 @@ def _remarks(
     for mode in outside:
         if band[0] <= mode.frequency_hz <= band[1]:
             remarks.append(
-                f"near {mode.frequency_hz:.1f} Hz the data ask for a mode that they do not locate; it is not listed"
+                f"near {mode.frequency_hz:.1f} Hz a mode is doubtful: {100 * mode.stability:.0f} % of the model "
+                f"orders show it, its frequency is known to {mode.frequency_sd_hz:.2g} Hz; it is not listed"
             )
     for mode in modes:
         if mode.loss_factor <= 0:

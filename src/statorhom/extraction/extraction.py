@@ -40,9 +40,9 @@ class ExtractedMode:
         Share of the model orders that show the mode, 0 … 1.
     observed : complex
         The pole ω_r²(1 + iη_r) as it lies in the data ((rad/s)²), windows' damping included.
-    point_shift : array, shape (points,), or None
-        Relative shift δ of the natural frequency, ω_r(1 + δ_k), from point to point, with median 0, where the data
-        ask for it: a roving sensor's mass does this. None where all points share the pole.
+    shift : complex array, shape (points or 1, references or 1), or None
+        Relative shift δ of ω_r from set-up to set-up, pole (1 + δ)² ω_r²(1 + iη), with median 0, where the data
+        ask for it: a roving sensor's mass or settling supports do this. None where all FRFs share the pole.
     """
 
     frequency_hz: float
@@ -59,7 +59,7 @@ class ExtractedMode:
     misfit: float
     stability: float
     observed: complex
-    point_shift: FloatArray | None = None
+    shift: ComplexArray | None = None
 
     def __post_init__(self) -> None:
         for array in (self.shape, self.shape_sd, self.participation, self.participation_sd):
@@ -83,9 +83,9 @@ class ExtractedMode:
     def receptance(self, frequency_hz: npt.ArrayLike) -> ComplexArray:
         """The mode's part of the receptances (m/N), shape (points, references, lines)."""
         squared = (2 * np.pi * np.asarray(frequency_hz, dtype=float)) ** 2
-        shift = np.zeros(1) if self.point_shift is None else self.point_shift
-        curve = 1.0 / (self.observed * (1 + shift[:, None]) ** 2 - squared)
-        part: ComplexArray = self.shape[:, None, None] * self.participation[None, :, None] * curve[:, None, :]
+        shift = np.zeros((1, 1)) if self.shift is None else self.shift
+        curve = 1.0 / (self.observed * (1 + shift[..., None]) ** 2 - squared)
+        part: ComplexArray = self.shape[:, None, None] * self.participation[None, :, None] * curve
         return part
 
 

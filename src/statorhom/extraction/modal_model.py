@@ -1,8 +1,8 @@
 """Modes of a window of lines, and the linear least squares over shapes and residual terms at given poles.
 
 Model of the receptance between point k and reference j, with structural damping (equation [7] of the
-stator's paper without its misprints): Σ_m φ_mk L_mj / (s_m(1 + δ_k)² − ω²) + residual terms of every
-reference, s_m = ω_m²(1 + iη_m).
+stator's paper without its misprints): Σ_m φ_mk L_mj / (s_m(1 + δ_mg)² − ω²) + residual terms of every
+reference, s_m = ω_m²(1 + iη_m), with the shift δ of set-up g, which is a point or a reference.
 """
 
 from __future__ import annotations
@@ -17,6 +17,8 @@ ComplexArray = npt.NDArray[np.complex128]
 
 RANK = 1e-12
 """Eigenvalues of scaled normal matrices below this are zero."""
+
+_MANY_POINTS = 16  # from which on products of all pairs of columns are cheaper than weighted columns per point
 
 
 @dataclass(frozen=True)
@@ -70,24 +72,50 @@ class Modes:
     poles : complex array, shape (modes,)
     parts : complex array, shape (modes, references)
         Participations, the largest component of each equal to 1.
-    shift : array, shape (points,), or None
-        Relative frequency shift of all poles at every point.
+    shift : complex array, shape (points or 1, modes, references or 1)
+        Relative shift of every pole from set-up to set-up, its imaginary part that of the damping; zero for
+        poles that all FRFs share.
     """
 
     poles: ComplexArray
     parts: ComplexArray
-    shift: FloatArray | None = None
+    shift: ComplexArray
 
     def __len__(self) -> int:
         return len(self.poles)
 
-    def without(self, index: int) -> Modes:
-        return replace(self, poles=np.delete(self.poles, index), parts=np.delete(self.parts, index, axis=0))
+    @property
+    def moving(self) -> npt.NDArray[np.bool_]:
+        """Modes whose poles differ from set-up to set-up, shape (modes,)."""
+        moving: npt.NDArray[np.bool_] = np.any(self.shift != 0, axis=(0, 2))
+        return moving
 
-    def with_mode(self, pole: complex, part: ComplexArray) -> Modes:
-        return replace(
-            self, poles=np.append(self.poles, pole), parts=np.concatenate([self.parts, unit_part(part)[None]])
+    def of(self, chosen: npt.ArrayLike) -> Modes:
+        """Some of the modes, by number or mask."""
+        rows = np.asarray(chosen)
+        rows = rows if rows.dtype == bool else rows.astype(int)
+        return Modes(self.poles[rows], self.parts[rows], self.shift[:, rows])
+
+    def without(self, index: int) -> Modes:
+        return self.of(np.delete(np.arange(len(self)), index))
+
+    def joined(self, other: Modes) -> Modes:
+        """These modes and further ones."""
+        shape = np.broadcast_shapes(self.shift[:, :1].shape, other.shift[:, :1].shape)
+        shifts = [
+            np.broadcast_to(one.shift, (shape[0], len(one), shape[2])) for one in (self, other)
+        ]
+        return Modes(
+            np.concatenate([self.poles, other.poles]),
+            np.concatenate([self.parts, other.parts]),
+            np.concatenate(shifts, axis=1),
         )
+
+
+def steady_modes(poles: ComplexArray, parts: ComplexArray) -> Modes:
+    """Modes whose poles all FRFs share; participations are scaled."""
+    scaled = np.array([unit_part(part) for part in parts], dtype=complex).reshape(len(poles), parts.shape[-1])
+    return Modes(np.asarray(poles, dtype=complex), scaled, np.zeros((1, len(poles), 1), dtype=complex))
 
 
 @dataclass(frozen=True)
@@ -143,31 +171,61 @@ def columns(window: Window, modes: Modes, neighbours: Modes | None) -> ComplexAr
 
 def modal_columns(window: Window, modes: Modes, power: int = 1) -> ComplexArray:
     """L/(s − ω²)^power of every mode, shape (1 or points, modes, references, lines)."""
-    poles = modes.poles[None]
-    if modes.shift is not None:
-        poles = poles * (1 + modes.shift[:, None]) ** 2
+    poles = modes.poles[None, :, None]
+    if modes.moving.any():
+        poles = poles * (1 + modes.shift) ** 2
     curve = window.binned((poles[..., None] - window.squared) ** -power)
-    result: ComplexArray = modes.parts[None, :, :, None] * curve[:, :, None, :]
+    result: ComplexArray = modes.parts[None, :, :, None] * curve
     return result
+
+
+def weighted_products(weights: FloatArray, a: ComplexArray, b: ComplexArray) -> ComplexArray:
+    """Σ w a* b over the data, shape (points, columns of a, columns of b).
+
+    Parameters
+    ----------
+    weights : array, shape (points, data)
+    a, b : complex arrays, shape (1 or points, columns, data)
+    """
+    if len(a) > 1 or len(b) > 1 or len(weights) < _MANY_POINTS:
+        product: ComplexArray = (a.conj() * weights[:, None]) @ b.transpose(0, 2, 1)
+        return product
+    # columns that all points share: one product of real matrices for all points
+    pairs = (a[0].conj()[:, None] * b[0][None]).reshape(-1, a.shape[-1])
+    shape = (len(weights), a.shape[1], b.shape[1])
+    return (weights @ pairs.real.T + 1j * (weights @ pairs.imag.T)).reshape(shape)
 
 
 def solve_linear(window: Window, phi: ComplexArray) -> Linear:
     """Least squares over the columns at every point."""
     points = len(window.values)
     flat = phi.reshape(len(phi), phi.shape[1], -1)
-    weights = window.weights.reshape(points, 1, -1)
+    weights = window.weights.reshape(points, -1)
     values = window.values.reshape(points, -1)
-    weighted = flat.conj() * weights
-    gram = weighted @ flat.transpose(0, 2, 1)
-    right = (weighted @ values[:, :, None])[..., 0]
+    gram = weighted_products(weights, flat, flat)
+    right = projected(flat, weights * values)
     diagonal = np.sqrt(np.maximum(np.einsum("kcc->kc", gram).real, np.finfo(float).tiny))
     gram = gram / (diagonal[:, :, None] * diagonal[:, None, :])
     inverse = np.linalg.pinv(gram, rcond=RANK, hermitian=True)
     scaled = right / diagonal
     coefficients = np.einsum("kab,kb->ka", inverse, scaled)
-    energy = np.sum(weights[:, 0] * np.abs(values) ** 2, axis=1)
+    energy = np.sum(weights * np.abs(values) ** 2, axis=1)
     chi2 = energy - np.einsum("ka,ka->k", scaled.conj(), coefficients).real
     return Linear(np.maximum(chi2, 0.0), coefficients, inverse, diagonal)
+
+
+def projected(flat: ComplexArray, values: ComplexArray) -> ComplexArray:
+    """Inner products of every point's values with the columns, shape (points, columns)."""
+    if len(flat) == 1:
+        return np.asarray(values @ flat[0].conj().T)
+    return np.asarray((flat.conj() @ values[:, :, None])[..., 0])
+
+
+def fitted(coefficients: ComplexArray, flat: ComplexArray) -> ComplexArray:
+    """Sum of the columns, shape (points, data)."""
+    if len(flat) == 1:
+        return np.asarray(coefficients @ flat[0])
+    return np.asarray((coefficients[:, None] @ flat)[:, 0])
 
 
 def free_parts(modes: Modes) -> npt.NDArray[np.int_]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.extraction.modal_model import Modes, Window
+from statorhom.extraction.modal_model import Modes, Window, steady_modes
 from statorhom.extraction.pole_price import dispersion, misfit, price
 from statorhom.extraction.pole_search import best_candidates, trial_poles
 from statorhom.extraction.window_fit import WindowFit, fit_window
@@ -63,9 +63,14 @@ def _worth(window: Window, fit: WindowFit) -> FloatArray:
 
 
 def grow(
-    window: Window, fit: WindowFit, neighbours: Modes, stable: ComplexArray, reach: tuple[float, float]
+    window: Window,
+    fit: WindowFit,
+    neighbours: Modes,
+    stable: ComplexArray,
+    reach: tuple[float, float],
+    most: int = _MOST_NEW,
 ) -> WindowFit:
-    """Add modes while each is worth its price.
+    """Add up to `most` modes while each is worth its price.
 
     Parameters
     ----------
@@ -75,7 +80,7 @@ def grow(
     reach : (below, above)
         How far beyond the window, in its width, poles are looked for.
     """
-    for _ in range(_MOST_NEW):
+    for _ in range(most):
         larger = _larger(window, fit, neighbours, stable, reach)
         if larger is None:
             break
@@ -108,7 +113,10 @@ def _with_candidate(
         if 2 * candidate.gain / misfit(window, fit) < _HOPELESS * price(window):
             return None
         larger = fit_window(
-            window, fit.modes.with_mode(candidate.pole, candidate.part), neighbours, _TRIAL_ITERATIONS
+            window,
+            fit.modes.joined(steady_modes(np.array([candidate.pole]), candidate.part[None])),
+            neighbours,
+            _TRIAL_ITERATIONS,
         )
         beyond = not window.squared[0] < larger.modes.poles[-1].real < window.squared[-1]
         seen = beyond or _near(larger.modes.poles[-1], np.concatenate([known, stable]))

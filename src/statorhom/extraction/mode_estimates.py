@@ -51,8 +51,8 @@ def mode_estimates(
             _mode(pole, pole_sd, residue, residue_sd, fit.modes.parts[m], part_sd, drive, window_decay_per_s)
             | {
                 "misfit": float(np.sqrt(misfit(fitted.window, fit))),
-                "stability": stability(stabilization, pole),
-                "point_shift": fit.modes.shift,
+                "stability": stabilization.share(pole),
+                "shift": fit.modes.shift[:, m] if fit.modes.moving[m] else None,
             }
         )
     return [ExtractedMode(**fields) for fields in modes]
@@ -115,12 +115,3 @@ def _same_place(one: Dof, other: Dof) -> bool:
     if one.position is None or other.position is None:
         return one.node == other.node
     return float(np.linalg.norm(np.subtract(one.position, other.position))) < _SAME_PLACE_M
-
-
-def stability(stabilization: Stabilization, pole: complex) -> float:
-    """Share of the orders, among those tried at a pole's frequency, with a stable pole within a bandwidth."""
-    frequency = np.sqrt(pole.real) / (2 * np.pi)
-    width = frequency * pole.imag / pole.real
-    near = stabilization.stable & (np.abs(stabilization.frequency_hz - frequency) < width)
-    orders = np.unique(stabilization.order)
-    return len(np.unique(stabilization.order[near])) / len(orders) if len(orders) else 0.0

@@ -13,11 +13,12 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.extraction.clusters import cluster_lines, clusters, nearest, tiles
-from statorhom.extraction.modal_model import Modes, Window, unit_part
+from statorhom.extraction.modal_model import Modes, Window, steady_modes
 from statorhom.extraction.mode_count import drop_doubtful, grow, prune
+from statorhom.extraction.moving_modes import moving_set_ups, refitted, with_moving_modes
 from statorhom.extraction.point_grid import PointGrid
-from statorhom.extraction.point_shifts import with_shifts
-from statorhom.extraction.window_fit import WindowFit, fit_window
+from statorhom.extraction.set_up_shifts import SetUps
+from statorhom.extraction.window_fit import WindowFit
 
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
@@ -51,21 +52,20 @@ class ModeSearch:
         self.grid = grid
         self.stable = stable / self.unit
         self.variance = np.where(grid.measured, sd**2.0, np.inf)
+        self.set_ups: SetUps | None = None
         self.visited: list[tuple[slice, ComplexArray]] = []
-        self.modes = Modes(
-            poles / self.unit,
-            np.array([unit_part(p) for p in parts]).reshape(len(poles), len(grid.references)),
-        )
+        self.modes = steady_modes(poles / self.unit, parts.reshape(len(poles), len(grid.references)))
 
     def run(self) -> list[FittedWindow]:
         """Sweep until the modes settle; the windows of the clusters with their last fits."""
+        first = [self._fitted(own) for own in clusters(self.modes.poles)]
+        self.set_ups = moving_set_ups([(one.window, one.fit, one.neighbours) for one in first])
         for _ in range(_SWEEPS):
             before = self.modes
             self._sweep()
             if _settled(before, self.modes):
                 break
-        fitted = [self._fitted(own) for own in clusters(self.modes.poles)]
-        return [replace(one, fit=with_shifts(one.window, one.fit, one.neighbours)) for one in fitted]
+        return [self._checked(self._fitted(own)) for own in clusters(self.modes.poles)]
 
     def _window(self, lines: slice) -> Window:
         squared = self.grid.omega[lines] ** 2 / self.unit
@@ -85,13 +85,18 @@ class ModeSearch:
 
     def _neighbours(self, own: list[int], lines: slice) -> Modes:
         beside = nearest(self.modes.poles, own, lines, self.grid.omega / np.sqrt(self.unit))
-        return Modes(self.modes.poles[beside], self.modes.parts[beside])
+        return self.modes.of(beside)
 
     def _fitted(self, own: list[int]) -> FittedWindow:
         lines = cluster_lines(self.modes.poles[own], self.grid.omega / np.sqrt(self.unit))
         window, neighbours = self._window(lines), self._neighbours(own, lines)
-        fit = fit_window(window, Modes(self.modes.poles[own], self.modes.parts[own]), neighbours)
+        fit = refitted(window, self.modes.of(own), neighbours, self.set_ups)
         return FittedWindow(lines, window, fit, neighbours, tuple(own))
+
+    def _checked(self, one: FittedWindow) -> FittedWindow:
+        """Without the modes that the last sweep has turned into corrections of others."""
+        kept = prune(one.window, drop_doubtful(one.window, one.fit, one.neighbours), one.neighbours)
+        return replace(one, fit=kept)
 
     def _sweep(self) -> None:
         omega = self.grid.omega / np.sqrt(self.unit)
@@ -100,7 +105,7 @@ class ModeSearch:
         for own, lines in zip(groups, windows, strict=True):
             self._improve(own, lines)
         keep = ~np.isnan(self.modes.poles)
-        self.modes = Modes(self.modes.poles[keep], self.modes.parts[keep])
+        self.modes = self.modes.of(keep)
         groups = clusters(self.modes.poles)
         for lines in tiles([cluster_lines(self.modes.poles[own], omega) for own in groups], len(omega)):
             self._improve([], lines)
@@ -124,16 +129,23 @@ class ModeSearch:
     def _improve(self, own: list[int], lines: slice) -> None:
         """Fit one window, drop modes that are not worth their price and add those that are."""
         window, neighbours = self._window(lines), self._neighbours(own, lines)
-        fit = fit_window(window, Modes(self.modes.poles[own], self.modes.parts[own]), neighbours)
+        fit = refitted(window, self.modes.of(own), neighbours, self.set_ups)
         fit = drop_doubtful(window, fit, neighbours)
         if not self._exhausted(lines, fit.modes, neighbours):
+            fit = self._with_moving(window, fit, neighbours)
             fit = grow(window, fit, neighbours, self.stable, self._reach(lines))
             fit = prune(window, fit, neighbours)
             self.visited.append((lines, np.sort_complex(np.concatenate([fit.modes.poles, neighbours.poles]))))
         # poles that are gone are marked, so that the places of the others stay; the sweep's end removes them
-        poles, parts = self.modes.poles.copy(), self.modes.parts
+        poles = self.modes.poles.copy()
         poles[own] = np.nan
-        self.modes = Modes(np.concatenate([poles, fit.modes.poles]), np.concatenate([parts, fit.modes.parts]))
+        self.modes = replace(self.modes, poles=poles).joined(fit.modes)
+
+
+    def _with_moving(self, window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
+        if self.set_ups is None:
+            return fit
+        return with_moving_modes(window, fit, neighbours, self.set_ups, self.stable)
 
 
 def _settled(before: Modes, after: Modes) -> bool:

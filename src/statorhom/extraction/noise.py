@@ -19,6 +19,7 @@ _HALF_STENCIL = 3
 _DEGREE = 2
 _BLOCK = 60  # lines of one median
 _FLOOR_QUANTILE = 0.02
+_LEAST_MODEL_ERROR = 0.003  # of the magnitude: linearity of structure and sensors
 _LEAST_RELATIVE = 1e-9  # keeps weights finite for data without noise
 
 
@@ -34,6 +35,12 @@ def noise_sd(grid: PointGrid) -> FloatArray:
     weight = grid.omega**2
     acceleration = grid.receptance * weight
     sd: FloatArray = _local(acceleration) / weight
+    return sd
+
+
+def expected_sd(grid: PointGrid, noise: FloatArray) -> FloatArray:
+    """Standard deviation of what a modal model may miss: noise, or what no real structure and sensor keep to."""
+    sd: FloatArray = np.maximum(noise, _LEAST_MODEL_ERROR * np.abs(grid.receptance))
     return sd
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from statorhom.extraction.modal_model import Window
+from statorhom.extraction.set_up_shifts import SetUps
 from statorhom.extraction.window_fit import WindowFit
 
 _LEAST_DISPERSION = 0.1  # the noise may be overestimated at sharp peaks, but not by more
@@ -22,12 +23,17 @@ def unknown_price(window: Window) -> float:
     return float(np.log(2.0 * references * lines))
 
 
+def set_up_price(window: Window, set_ups: SetUps) -> float:
+    """Price of a shift in every set-up, each with the data of its set-up behind it."""
+    count = set_ups.count(window)
+    return float(count * np.log(2.0 * window.values.size / count))
+
+
 def misfit(window: Window, fit: WindowFit) -> float:
     """Mean squared weighted residual per degree of freedom: 1 where the noise explains it."""
     data = int(np.count_nonzero(window.weights))
     unknowns = fit.linear.coefficients.size + 2 * len(fit.modes)
-    if fit.modes.shift is not None:
-        unknowns += len(fit.modes.shift) // 2
+    unknowns += int(np.count_nonzero(fit.modes.shift)) // 2
     return max(_LEAST_DISPERSION, fit.chi2 / max(data - unknowns, 1))
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.extraction.modal_model import Modes, Window, columns
+from statorhom.extraction.modal_model import Modes, Window, columns, weighted_products
 from statorhom.extraction.window_fit import WindowFit
 
 FloatArray = npt.NDArray[np.float64]
@@ -91,7 +91,8 @@ def _gains(
     for j in range(references):
         weights = window.weights[:, j]
         score[:, :, j] = (weighted_residual[:, j] @ conjugate).T
-        cross[j] = ((phi[:, :, j] * weights[:, None]) @ conjugate) / fit.linear.norms[:, :, None]
+        products = weighted_products(weights, curve[None], phi[:, :, j])
+        cross[j] = products.transpose(0, 2, 1) / fit.linear.norms[:, :, None]
         diagonal[j] = weights @ (np.abs(curve) ** 2).T
     # Schur complement: what of the new columns lies outside the known ones
     schur = np.empty((trials, points, references, references), dtype=complex)

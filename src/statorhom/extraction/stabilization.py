@@ -19,6 +19,8 @@ _MOST_ROOTS = 40  # order times references
 _STABLE = 0.3  # distance to a pole of the next lower order, in half-power bandwidths
 _SAME = 0.5  # distance of one pole's images over the orders
 _LEAST_IMAGES = 3
+LEAST_SHARE = 0.25
+"""Share of the orders that must show a mode."""
 
 
 @dataclass(frozen=True)
@@ -38,12 +40,21 @@ class Stabilization:
     order: npt.NDArray[np.int_]
     stable: npt.NDArray[np.bool_]
 
+    def share(self, squared: complex) -> float:
+        """Share of the orders that have a stable pole within the half-power bandwidth of ω²(1 + iη), 0 … 1."""
+        frequency = np.sqrt(squared.real) / (2 * np.pi)
+        width = frequency * squared.imag / squared.real
+        near = self.stable & (np.abs(self.frequency_hz - frequency) < width)
+        orders = len(np.unique(self.order))
+        return len(np.unique(self.order[near])) / orders if orders else 0.0
+
     @property
-    def stable_squared(self) -> ComplexArray:
-        """ω²(1 + iη) of the stable poles ((rad/s)²)."""
+    def lasting_squared(self) -> ComplexArray:
+        """ω²(1 + iη) of the stable poles that enough orders show ((rad/s)²)."""
         square = (2 * np.pi * self.frequency_hz[self.stable]) ** 2
-        poles: ComplexArray = square * (1 + 1j * self.loss_factor[self.stable])
-        return poles
+        poles = square * (1 + 1j * self.loss_factor[self.stable])
+        lasting = [pole for pole in poles.tolist() if self.share(pole) >= LEAST_SHARE]
+        return np.array(lasting, dtype=complex)
 
 
 def stabilize(grid: PointGrid, sd: FloatArray) -> tuple[ComplexArray, ComplexArray, Stabilization]:

@@ -18,10 +18,13 @@ from statorhom.extraction.modal_model import (
     Modes,
     Window,
     columns,
+    fitted,
     free_parts,
     modal_columns,
+    projected,
     solve_linear,
     unit_part,
+    weighted_products,
 )
 
 FloatArray = npt.NDArray[np.float64]
@@ -91,52 +94,46 @@ def _state(window: Window, modes: Modes, neighbours: Modes | None) -> tuple[Wind
     points = len(window.values)
     flat = phi.reshape(len(phi), phi.shape[1], -1)
     unscaled = linear.coefficients / linear.norms
-    residual = window.values.reshape(points, -1) - (unscaled[:, None] @ flat)[:, 0]
+    residual = window.values.reshape(points, -1) - fitted(unscaled, flat)
     linear = replace(linear, correlation=residual_correlation(window, residual))
     empty = np.zeros((0, 0), dtype=complex)
     if not len(modes):
         cross = np.zeros((len(linear.chi2), phi.shape[1], 0), dtype=complex)
         return WindowFit(modes, float(linear.chi2.sum()), linear, empty, cross), np.zeros(0, dtype=complex)
-    score, inner, cross = _terms(window, modes, phi, linear, residual)
+    derivative, owner = _derivatives(window, modes)
+    score, inner, cross = reduced_terms(window, flat, linear, residual, derivative, owner)
     fit = WindowFit(modes, float(linear.chi2.sum()), linear, inner.sum(axis=0), cross)
     return fit, score.sum(axis=0)
 
 
-def _terms(
-    window: Window, modes: Modes, phi: ComplexArray, linear: Linear, residual: ComplexArray
+def reduced_terms(
+    window: Window,
+    flat: ComplexArray,
+    linear: Linear,
+    residual: ComplexArray,
+    derivative: ComplexArray,
+    owner: npt.NDArray[np.int_],
 ) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
-    """Every point's part of the gradient and the Hessian, and the change of its linear unknowns."""
-    derivative, owner = _derivatives(window, modes)
-    weights = window.weights.reshape(len(window.values), 1, -1)
+    """Every point's part of gradient and Hessian with its linear unknowns eliminated, and their change.
+
+    Parameters
+    ----------
+    flat : complex array, shape (1 or points, columns, data)
+    residual : complex array, shape (points, data)
+    derivative : complex array, shape (1 or points, unknowns, references, lines)
+        Of the columns of the modes, by each unknown.
+    owner : int array, shape (unknowns,)
+        The mode that each unknown belongs to.
+    """
+    weights = window.weights.reshape(len(window.values), -1)
     flat_d = derivative.reshape(len(derivative), derivative.shape[1], -1)
-    flat = phi.reshape(len(phi), phi.shape[1], -1)
-    weighted = flat_d.conj() * weights
     amplitude = (linear.coefficients / linear.norms)[:, owner]
-    score = amplitude.conj() * (weighted @ residual[:, :, None])[..., 0]
-    d_phi = (weighted @ flat.transpose(0, 2, 1)) / linear.norms[:, None, :]
+    score = amplitude.conj() * projected(flat_d, weights * residual)
+    d_phi = weighted_products(weights, flat_d, flat) / linear.norms[:, None, :]
     moved = linear.inverse @ d_phi.conj().transpose(0, 2, 1)  # (points, columns, unknowns)
-    inner = weighted @ flat_d.transpose(0, 2, 1) - d_phi @ moved
+    inner = weighted_products(weights, flat_d, flat_d) - d_phi @ moved
     inner = amplitude.conj()[:, :, None] * inner * amplitude[:, None, :]
     return score, inner, -moved * amplitude[:, None, :]
-
-
-def shift_terms(
-    window: Window, modes: Modes, neighbours: Modes | None
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Of every point: χ², half its negative slope and half its curvature over the point's frequency shift."""
-    phi = columns(window, modes, neighbours)
-    linear = solve_linear(window, phi)
-    flat = phi.reshape(len(phi), phi.shape[1], -1)
-    residual = window.values.reshape(len(window.values), -1)
-    residual = residual - ((linear.coefficients / linear.norms)[:, None] @ flat)[:, 0]
-    score, inner, _ = _terms(window, modes, phi, linear, residual)
-    count = len(modes)
-    shift = np.zeros(len(residual)) if modes.shift is None else modes.shift
-    # ∂/∂δ = Σ_m 2 s_m/(1 + δ) ∂/∂s_m
-    chain = 2 * modes.poles[None] / (1 + shift[:, None])
-    slope = np.einsum("km,km->k", chain.conj(), score[:, :count]).real
-    curvature = np.einsum("km,kmn,kn->k", chain.conj(), inner[:, :count, :count], chain).real
-    return linear.chi2, slope, curvature
 
 
 def residual_correlation(window: Window, residual: ComplexArray) -> float:
@@ -152,8 +149,8 @@ def residual_correlation(window: Window, residual: ComplexArray) -> float:
 def _derivatives(window: Window, modes: Modes) -> tuple[ComplexArray, npt.NDArray[np.int_]]:
     """Derivative of each mode's column by each of its unknowns, and the mode that each unknown belongs to."""
     by_pole = -modal_columns(window, modes, power=2)
-    if modes.shift is not None:
-        by_pole = by_pole * (1 + modes.shift[:, None, None, None]) ** 2
+    if modes.moving.any():
+        by_pole = by_pole * ((1 + modes.shift) ** 2)[..., None]
     references = modes.parts.shape[1]
     free = free_parts(modes)
     owner = np.concatenate([np.arange(len(modes)), free[:, 0]]).astype(int)

@@ -1,0 +1,123 @@
+"""Whether the poles of a test move from set-up to set-up, and which modes of a window do.
+
+The Bayesian information criterion decides between several modes that stay and fewer that move.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from statorhom.extraction.modal_model import Modes, Window
+from statorhom.extraction.mode_count import grow
+from statorhom.extraction.pole_price import dispersion, misfit, price, set_up_price
+from statorhom.extraction.set_up_shifts import SetUps, fit_shifted, shift_gains
+from statorhom.extraction.window_fit import WindowFit, fit_window
+
+FloatArray = npt.NDArray[np.float64]
+ComplexArray = npt.NDArray[np.complex128]
+
+_EXPLAINED = 1.5  # misfit of a window that needs nothing further
+_STEADY = 0.5  # of the price of shifts: what a window may promise whose modes stay
+_MAJORITY = 2.0  # windows with moving modes for every one whose modes stay
+_OVERLAP = 3.0  # bandwidths within which images of one moving mode lie
+_MOST_BESIDE = 3  # modes that stay beside those that move
+
+FittedWindows = Sequence[tuple[Window, WindowFit, Modes]]  # with the neighbours
+
+
+def moving_set_ups(windows: FittedWindows) -> SetUps | None:
+    """What the poles move with, if they move in most windows; None for a test whose poles stay.
+
+    One doublet that is barely split looks like a mode that moves. Set-ups that differ move all modes.
+    """
+    best, most = None, 0
+    for set_ups in SetUps:
+        gains = [_promise(*one, set_ups) for one in windows if set_ups.count(one[0]) > 1 and len(one[1].modes)]
+        moving = sum(gain > 1.0 for gain, _ in gains)
+        steady = sum(gain < _STEADY and left < _EXPLAINED for gain, left in gains)
+        if moving > _MAJORITY * steady and moving > most:
+            best, most = set_ups, moving
+    return best
+
+
+def _promise(window: Window, fit: WindowFit, neighbours: Modes, set_ups: SetUps) -> tuple[float, float]:
+    """Gain of shifts over their price, and the misfit without them."""
+    return float(np.max(_promises(window, fit, neighbours, set_ups))), misfit(window, fit)
+
+
+def _promises(window: Window, fit: WindowFit, neighbours: Modes, set_ups: SetUps) -> FloatArray:
+    gains = shift_gains(window, fit, neighbours, set_ups)
+    promises: FloatArray = 2 * gains / dispersion(window, fit) / set_up_price(window, set_ups)
+    return promises
+
+
+def with_moving_modes(
+    window: Window, fit: WindowFit, neighbours: Modes, set_ups: SetUps, stable: ComplexArray
+) -> WindowFit:
+    """The fit itself, or one that starts anew from its distinct modes, moving, where that is the better bargain.
+
+    Parameters
+    ----------
+    stable : complex array, shape (poles,)
+        As in `grow`.
+    """
+    if not len(fit.modes) or fit.modes.moving.any():
+        return fit
+    distinct = _distinct(fit)
+    promising = np.max(_promises(window, fit, neighbours, set_ups)) > 1.0
+    if not promising and len(distinct) == len(fit.modes):
+        return fit
+    modes = fit.modes.of(distinct)
+    trial = fit_shifted(window, modes, neighbours, np.ones(len(modes), dtype=bool), set_ups)
+    if set_ups is SetUps.REFERENCES:
+        trial = _damped(window, trial, neighbours, set_ups)
+    for _ in range(_MOST_BESIDE):
+        larger = grow(window, trial, neighbours, stable, (0.0, 0.0), most=1)
+        if len(larger.modes) == len(trial.modes):
+            break
+        # what the new mode explains is no shift any more
+        trial = refitted(window, larger.modes, neighbours, set_ups)
+    return _cheaper(window, trial, fit)
+
+
+def _distinct(fit: WindowFit) -> list[int]:
+    """Modes without those that overlap with a stronger one: a mode that moves has left several images."""
+    poles = fit.modes.poles
+    amplitude = (fit.linear.coefficients / fit.linear.norms)[:, : len(poles)]
+    strength = np.linalg.norm(amplitude, axis=0) / poles.imag
+    kept: list[int] = []
+    for m in np.argsort(-strength).tolist():
+        if all(abs(poles[m].real - poles[other].real) > _OVERLAP * poles[other].imag for other in kept):
+            kept.append(m)
+    return sorted(kept)
+
+
+def _damped(window: Window, fit: WindowFit, neighbours: Modes, set_ups: SetUps) -> WindowFit:
+    """Also the damping may move: from hammer point to hammer point supports settle, but a mass damps nothing."""
+    trial = fit_shifted(window, fit.modes, neighbours, fit.modes.moving, set_ups, damped=True)
+    return _cheaper(window, trial, fit)
+
+
+def _cheaper(window: Window, trial: WindowFit, fit: WindowFit) -> WindowFit:
+    return trial if _cost(window, trial, fit) < _cost(window, fit, trial) else fit
+
+
+def refitted(window: Window, modes: Modes, neighbours: Modes, set_ups: SetUps | None) -> WindowFit:
+    """Fit with the modes that moved before moving on."""
+    if set_ups is None or not modes.moving.any():
+        return fit_window(window, modes, neighbours)
+    damped = bool(np.any(modes.shift.imag != 0))
+    return fit_shifted(window, modes, neighbours, modes.moving, set_ups, damped)
+
+
+def _cost(window: Window, fit: WindowFit, other: WindowFit) -> float:
+    """BIC, with the smaller misfit of the two fits as noise."""
+    noise = min(dispersion(window, fit), dispersion(window, other))
+    shift = fit.modes.shift
+    free = np.count_nonzero(shift.real) + np.count_nonzero(shift.imag)
+    set_ups = max(1, shift.shape[0] * shift.shape[2])
+    shifts = free / set_ups * set_up_price(window, SetUps.POINTS if shift.shape[0] > 1 else SetUps.REFERENCES)
+    return 2 * fit.chi2 / noise + len(fit.modes) * price(window) + shifts
