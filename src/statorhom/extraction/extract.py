@@ -13,11 +13,14 @@ from statorhom.extraction.mode_search import ModeSearch
 from statorhom.extraction.noise import expected_sd, noise_sd
 from statorhom.extraction.point_grid import PointGrid, point_grid
 from statorhom.extraction.stabilization import LEAST_SHARE, stabilize
+from statorhom.extraction.unresolved import without_unresolved
 from statorhom.recordings.frf_set import FrfSet
 
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
+_KNOWN = 5e-4  # largest standard deviation of a frequency in a modal table, relative …
+_KNOWN_LINES = 0.1  # … or in lines; among strongly damped modes that overlap it is more
 _LOCATED = 0.5  # largest standard deviation of a mode's frequency, in half-power bandwidths
 
 
@@ -47,11 +50,14 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
     poles, parts, stabilization = stabilize(grid, sd)
     search = ModeSearch(grid, sd, poles, parts, stabilization.lasting_squared)
     decay = float(np.mean([one.window_decay_per_s for one in sets]))
-    found = [mode for fitted in search.run() for mode in mode_estimates(fitted, grid, stabilization, decay)]
+    windows = [without_unresolved(one) for one in search.run()]
+    found = [mode for one, _ in windows for mode in mode_estimates(one, grid, stabilization, decay)]
     found.sort(key=lambda mode: mode.frequency_hz)
     band = (float(grid.omega[0] / (2 * np.pi)), float(grid.omega[-1] / (2 * np.pi)))
-    modes = tuple(mode for mode in found if _is_mode(mode, band))
-    outside = tuple(mode for mode in found if not _is_mode(mode, band))
+    spacing = (band[1] - band[0]) / (len(grid.omega) - 1)
+    listed = [_is_mode(mode, band, spacing) for mode in found]
+    modes = tuple(mode for mode, inside in zip(found, listed, strict=True) if inside)
+    outside = tuple(mode for mode, inside in zip(found, listed, strict=True) if not inside)
     mass_line, stiffness_line = _residual_terms(grid, sd, found)
     return Extraction(
         modes,
@@ -65,12 +71,14 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
         stiffness_line,
         float(np.median((noise / np.maximum(np.abs(grid.receptance), np.finfo(float).tiny))[grid.measured])),
         stabilization,
-        tuple(_remarks(modes, outside, band)),
+        tuple([*_merged_remarks([pole for _, poles in windows for pole in poles], len(grid.references)), *_remarks(modes, outside, band)]),
     )
 
 
-def _is_mode(mode: ExtractedMode, band: tuple[float, float]) -> bool:
-    located = mode.frequency_sd_hz < _LOCATED * mode.bandwidth_hz
+def _is_mode(mode: ExtractedMode, band: tuple[float, float], spacing_hz: float) -> bool:
+    """Whether a pole is listed: inside the band, shown by enough model orders and located."""
+    known = max(_KNOWN * mode.frequency_hz, _KNOWN_LINES * spacing_hz)
+    located = mode.frequency_sd_hz < min(known, _LOCATED * mode.bandwidth_hz)
     return band[0] <= mode.frequency_hz <= band[1] and located and mode.stability >= LEAST_SHARE
 
 
@@ -93,6 +101,16 @@ def _residual_terms(
     right = scaled.conj().swapaxes(-1, -2) @ (rest[..., None] * weight)
     solution = (np.linalg.pinv(gram, rcond=1e-12, hermitian=True) @ right)[..., 0] / norm[..., 0, :]
     return solution[..., 0], solution[..., 1]
+
+
+def _merged_remarks(poles: Sequence[complex], references: int) -> list[str]:
+    """What is said of modes that were not told apart."""
+    remedy = "cannot be resolved from one reference: hit a second point" if references == 1 else "cannot be resolved"
+    return [
+        f"near {np.sqrt(pole.real) / (2 * np.pi):.2f} Hz two modes of almost one frequency show, a doublet perhaps, "
+        f"which {remedy}; one is listed"
+        for pole in poles
+    ]
 
 
 def _remarks(

@@ -113,7 +113,7 @@ def measured_modes(
         said += [fault.statement for fault in estimate.faults]
     extraction = extract(frf_sets, band_hz)
     modes, remarks = _named(extraction)
-    modes = _with_hints(modes, frf_sets[0])
+    modes = _with_hints(modes, extraction, frf_sets[0])
     said += [*extraction.remarks, *remarks, *_non_linear(modes)]
     return MeasuredModes(frf_sets, extraction, modes, _doublets(modes), tuple(dict.fromkeys(said)))
 
@@ -134,12 +134,23 @@ def _name(mode: ExtractedMode, layout: PointLayout) -> NamedMode:
     return NamedMode(mode, shape, name, shape_features(shape) if has_order else None)
 
 
-def _with_hints(modes: Sequence[NamedMode], frfs: FrfSet) -> tuple[NamedMode, ...]:
-    poles = [(one.mode.frequency_hz, one.mode.loss_factor) for one in modes]
+def _with_hints(
+    modes: Sequence[NamedMode], extraction: Extraction, frfs: FrfSet
+) -> tuple[NamedMode, ...]:
+    """Hints of the modes whose poles stay: one pole does not describe the FRFs of the others."""
+    every = [*extraction.modes, *extraction.outside]
     return tuple(
-        replace(one, hints=mode_hints(frfs, pole, [*poles[:i], *poles[i + 1 :]]))
-        for i, (one, pole) in enumerate(zip(modes, poles, strict=True))
+        one
+        if one.mode.shift is not None
+        else replace(
+            one, hints=mode_hints(frfs, _pole(one.mode), [_pole(e) for e in every if e is not one.mode])
+        )
+        for one in modes
     )
+
+
+def _pole(mode: ExtractedMode) -> tuple[float, float]:
+    return mode.frequency_hz, mode.observed.imag / mode.observed.real
 
 
 def _non_linear(modes: Sequence[NamedMode]) -> list[str]:

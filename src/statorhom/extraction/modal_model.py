@@ -18,6 +18,7 @@ ComplexArray = npt.NDArray[np.complex128]
 RANK = 1e-12
 """Eigenvalues of scaled normal matrices below this are zero."""
 
+_SAFE_PIVOT = 1e-8
 _MANY_POINTS = 16  # from which on products of all pairs of columns are cheaper than weighted columns per point
 
 
@@ -206,12 +207,23 @@ def solve_linear(window: Window, phi: ComplexArray) -> Linear:
     right = projected(flat, weights * values)
     diagonal = np.sqrt(np.maximum(np.einsum("kcc->kc", gram).real, np.finfo(float).tiny))
     gram = gram / (diagonal[:, :, None] * diagonal[:, None, :])
-    inverse = np.linalg.pinv(gram, rcond=RANK, hermitian=True)
+    inverse = hermitian_inverse(gram)
     scaled = right / diagonal
     coefficients = np.einsum("kab,kb->ka", inverse, scaled)
     energy = np.sum(weights * np.abs(values) ** 2, axis=1)
     chi2 = energy - np.einsum("ka,ka->k", scaled.conj(), coefficients).real
     return Linear(np.maximum(chi2, 0.0), coefficients, inverse, diagonal)
+
+
+def hermitian_inverse(matrices: ComplexArray) -> ComplexArray:
+    """Inverses of matrices with unit diagonal; pseudo-inverses where one is near singular, which take longer."""
+    try:
+        pivots = np.einsum("kcc->kc", np.linalg.cholesky(matrices)).real
+    except np.linalg.LinAlgError:
+        pivots = np.zeros(1)
+    if np.min(pivots, initial=1.0) ** 2 > _SAFE_PIVOT:
+        return np.asarray(np.linalg.inv(matrices))
+    return np.asarray(np.linalg.pinv(matrices, rcond=RANK, hermitian=True))
 
 
 def projected(flat: ComplexArray, values: ComplexArray) -> ComplexArray:

@@ -16,6 +16,10 @@ from statorhom.recordings.frf_set import FrfSet
 STRONGEST = 12  # FRFs of a mode that are looked at: the others add noise, not evidence
 RARE = 1e-3  # probability below which a hint is worth a remark: a test has dozens of modes and two hints each
 
+BROAD = 0.04  # loss factor from which on the lines of a peak reach far into other modes' …
+OVERLAP = 2.0  # … where these lie within so many half-power bandwidths
+LEAST_DISTORTION, LEAST_ASYMMETRY = 0.01, 0.02  # what is worth a remark, however certain
+
 Pole = tuple[float, float]  # frequency in Hz, loss factor
 
 
@@ -31,6 +35,8 @@ class ModeHints:
         Largest distance from the circle beyond noise, over its radius.
     flank_p : float
         Probability of flanks so unequal; NaN where too few lines show the mode.
+    asymmetry : float
+        Median of the flanks' asymmetry.
     steeper : str
         The flank that is steeper in most FRFs: "upper" or "lower".
     """
@@ -38,28 +44,37 @@ class ModeHints:
     circle_p: float
     distortion: float
     flank_p: float
+    asymmetry: float
     steeper: str
 
     @property
     def remarkable(self) -> bool:
         """Whether the mode looks non-linear."""
-        return bool(self.circle_p < RARE or self.flank_p < RARE)
+        return self._bent_circle or self._bent_peak
+
+    @property
+    def _bent_circle(self) -> bool:
+        return bool(self.circle_p < RARE and self.distortion > LEAST_DISTORTION)
+
+    @property
+    def _bent_peak(self) -> bool:
+        return bool(self.flank_p < RARE and abs(self.asymmetry) > LEAST_ASYMMETRY)
 
     @property
     def statement(self) -> str:
         """The hint in words."""
         said = []
-        if self.circle_p < RARE:
+        if self._bent_circle:
             said.append(
                 f"Nyquist circle distorted by {100 * self.distortion:.1f} % (p = {self.circle_p:.1g})"
             )
-        if self.flank_p < RARE:
+        if self._bent_peak:
             said.append(f"steep {self.steeper} flank (p = {self.flank_p:.1g})")
         return "; ".join(said)
 
 
-def mode_hints(frfs: FrfSet, pole: Pole, others: Sequence[Pole]) -> ModeHints:
-    """Look at the strongest FRFs of a mode.
+def mode_hints(frfs: FrfSet, pole: Pole, others: Sequence[Pole]) -> ModeHints | None:
+    """Look at the strongest FRFs of a mode; None where its peak is too broad to be seen apart from others.
 
     Parameters
     ----------
@@ -67,6 +82,8 @@ def mode_hints(frfs: FrfSet, pole: Pole, others: Sequence[Pole]) -> ModeHints:
     pole : the mode.
     others : all other modes; a close doublet would look like a bent peak without them.
     """
+    if pole[1] > BROAD and any(_overlap(pole, other) for other in others):
+        return None
     receptance = frfs.receptance
     at_peak = np.abs(receptance[:, np.argmin(np.abs(frfs.frequency_hz - pole[0]))])
     rows = np.argsort(-np.nan_to_num(at_peak))[:STRONGEST]
@@ -82,5 +99,10 @@ def mode_hints(frfs: FrfSet, pole: Pole, others: Sequence[Pole]) -> ModeHints:
         circle_p=combined_probability([circle.p for circle in circles]),
         distortion=max((circle.distortion for circle in circles), default=0.0),
         flank_p=combined_probability([flank.p for flank in flanks]),
+        asymmetry=float(np.median([flank.asymmetry for flank in flanks])) if flanks else 0.0,
         steeper="upper" if 2 * upper >= len(flanks) else "lower",
     )
+
+
+def _overlap(one: Pole, other: Pole) -> bool:
+    return abs(one[0] - other[0]) < OVERLAP * max(one[0] * one[1], other[0] * other[1])

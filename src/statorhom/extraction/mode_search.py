@@ -114,28 +114,31 @@ class ModeSearch:
         """How far beyond a window modes are looked for: beyond the ends of the data they are residual terms."""
         return (_REACH * (lines.start == 0), _REACH * (lines.stop == len(self.grid.omega)))
 
-    def _exhausted(self, lines: slice, modes: Modes, neighbours: Modes) -> bool:
-        """Whether this window was searched before among the same poles."""
+    def _visited(self, lines: slice, modes: Modes, neighbours: Modes, tolerance: float) -> bool:
+        """Whether this window was searched before among the same poles, but for a part of their bandwidths."""
         poles = np.sort_complex(np.concatenate([modes.poles, neighbours.poles]))
         slack = 0.05 * (lines.stop - lines.start)
         return any(
             abs(lines.start - seen.start) <= slack
             and abs(lines.stop - seen.stop) <= slack
             and len(known) == len(poles)
-            and bool(np.all(np.abs(known - poles) < _SEEN * poles.imag))
+            and bool(np.all(np.abs(known - poles) < tolerance * poles.imag))
             for seen, known in self.visited
         )
 
     def _improve(self, own: list[int], lines: slice) -> None:
         """Fit one window, drop modes that are not worth their price and add those that are."""
-        window, neighbours = self._window(lines), self._neighbours(own, lines)
+        neighbours = self._neighbours(own, lines)
+        if self._visited(lines, self.modes.of(own), neighbours, _SETTLED):
+            return
+        window = self._window(lines)
         fit = refitted(window, self.modes.of(own), neighbours, self.set_ups)
         fit = drop_doubtful(window, fit, neighbours)
-        if not self._exhausted(lines, fit.modes, neighbours):
+        if not self._visited(lines, fit.modes, neighbours, _SEEN):
             fit = self._with_moving(window, fit, neighbours)
             fit = grow(window, fit, neighbours, self.stable, self._reach(lines))
             fit = prune(window, fit, neighbours)
-            self.visited.append((lines, np.sort_complex(np.concatenate([fit.modes.poles, neighbours.poles]))))
+        self.visited.append((lines, np.sort_complex(np.concatenate([fit.modes.poles, neighbours.poles]))))
         # poles that are gone are marked, so that the places of the others stay; the sweep's end removes them
         poles = self.modes.poles.copy()
         poles[own] = np.nan

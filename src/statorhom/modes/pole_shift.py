@@ -62,6 +62,8 @@ class PoleShiftTrend:
         The other mass that explains a close doublet's poles as well: a mass and a split of the bare doublet
         change places without a trace, so if all doublets
         have the same mirror, it is as likely as the joint mass. NaN for modes without a close neighbour.
+    bare_hz : ndarray, shape (modes,)
+        Frequencies without the joint mass (Hz).
     predicted : ndarray, shape (set-ups, modes)
         Relative shifts from their mean that the joint mass explains.
     observed : ndarray, shape (set-ups, modes)
@@ -71,11 +73,12 @@ class PoleShiftTrend:
     joint: SensorMass
     modes: tuple[SensorMass, ...]
     mirror_kg: FloatArray
+    bare_hz: FloatArray
     predicted: FloatArray
     observed: FloatArray
 
     def __post_init__(self) -> None:
-        for array in (self.mirror_kg, self.predicted, self.observed):
+        for array in (self.mirror_kg, self.bare_hz, self.predicted, self.observed):
             array.setflags(write=False)
 
 
@@ -131,8 +134,9 @@ def pole_shift_trend(
     shifts = table(masses)
     joint = _explain(observed, weight, masses, shifts, every)
     single = tuple(_explain(observed, weight, masses, shifts, [mode]) for mode in every)
-    predicted, mirror = table(joint.mass_kg), _mirror(bare(joint.mass_kg), phi)
-    return PoleShiftTrend(joint, single, mirror, predicted, np.where(present, observed, np.nan))
+    alone = np.asarray(bare(joint.mass_kg))
+    predicted, mirror = table(joint.mass_kg), _mirror(alone, phi)
+    return PoleShiftTrend(joint, single, mirror, alone, predicted, np.where(present, observed, np.nan))
 
 
 def _mass_table(

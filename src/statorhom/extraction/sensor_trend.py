@@ -1,0 +1,130 @@
+"""What a roving sensor's mass did to the modes of a test: the mass, and the frequencies without it.
+
+To first order δf/f = −mφ²/2 with the mass-normalised amplitude φ at the sensor, which follows from the residues
+φ_k φ_h: the wave that the shape forms around the circumference, evaluated at the hammer's place, is φ_h².
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from statorhom.errors import IdentificationError
+from statorhom.extraction.extraction import ExtractedMode
+from statorhom.modes.pole_shift import PoleShiftTrend, pole_shift_trend
+from statorhom.recordings.dof import Dof
+
+FloatArray = npt.NDArray[np.float64]
+
+SURE = 1e-3  # probability of chance below which a mass is reported
+_SEEN = 0.2  # part of its largest amplitude that a mode must have at a point
+_FEWEST_POINTS = 6
+
+
+@dataclass(frozen=True)
+class SensorTrend:
+    """Shifts of a test's poles over the places of the sensor.
+
+    Attributes
+    ----------
+    modes : tuple of int
+        Numbers of the modes that the trend rests on.
+    shifts : PoleShiftTrend
+        Set-ups are the points of the shapes.
+    bare_hz, bare_sd_hz : arrays, shape (modes,)
+        Frequencies extrapolated to a sensor without mass. Motion that was not measured (tangential, axial)
+        carries the mass as well and is missing in them.
+    """
+
+    modes: tuple[int, ...]
+    shifts: PoleShiftTrend
+    bare_hz: FloatArray
+    bare_sd_hz: FloatArray
+
+    @property
+    def significant(self) -> bool:
+        """Whether a mass explains the shifts beyond chance."""
+        return self.shifts.joint.p_mass < SURE and self.shifts.joint.ci90_kg[0] > 0
+
+    @property
+    def statement(self) -> str:
+        """The trend in one line."""
+        joint = self.shifts.joint
+        low, high = (1000 * one for one in joint.ci90_kg)
+        said = f"the poles move with the sensor as a mass of {1000 * joint.mass_kg:.3g} g ({low:.3g} … {high:.3g} g) "
+        frequencies = ", ".join(f"{one:.2f}" for one in self.bare_hz)
+        return f"{said}moves them; without it the modes {', '.join(str(1 + m) for m in self.modes)} lie at {frequencies} Hz"
+
+
+def sensor_trend(
+    modes: Sequence[ExtractedMode], names: Mapping[int, tuple[int, int]], points: Sequence[Dof], hammer: Dof
+) -> SensorTrend | None:
+    """Trend of the modes that move from point to point; None where fewer than one is known by name.
+
+    Parameters
+    ----------
+    modes : sequence of ExtractedMode
+    names : number of a mode → (r, n)
+    points : of the shapes, where the sensor was.
+    hammer : where the force was.
+    """
+    chosen = [
+        m
+        for m, mode in enumerate(modes)
+        if mode.shift is not None and len(mode.shift) == len(points) and names.get(m, (0, 0))[0] > 0
+    ]
+    waves = {m: _wave(modes[m], names[m], points, hammer) for m in chosen}
+    chosen = [m for m in chosen if waves[m] is not None]
+    if not chosen:
+        return None
+    frequency = np.stack([_frequencies(modes[m])[0] for m in chosen], axis=1)
+    sd = np.stack([_frequencies(modes[m])[1] for m in chosen], axis=1)
+    amplitude = np.stack([wave for m in chosen if (wave := waves[m]) is not None], axis=1)
+    try:
+        shifts = pole_shift_trend(frequency, sd, amplitude)
+    except IdentificationError:
+        return None
+    square = np.mean(np.sum(amplitude**2, axis=2), axis=0)
+    low, high = shifts.joint.ci90_kg
+    return SensorTrend(tuple(chosen), shifts, shifts.bare_hz, shifts.bare_hz * square * (high - low) / 2 / 3.29)
+
+
+def _frequencies(mode: ExtractedMode) -> tuple[FloatArray, FloatArray]:
+    """Frequency at every point and its standard deviation; NaN where the mode hardly moves."""
+    assert mode.shift is not None
+    size = np.abs(mode.shape)
+    frequency = np.where(size > _SEEN * size.max(), mode.frequency_hz * (1 + mode.shift[:, 0].real), np.nan)
+    # of a single resonance with unknown residue A: sd(s)/|s| = 2η sd(A)/|A|, s = ω², real part
+    loss = mode.observed.imag / mode.observed.real
+    sd = mode.frequency_hz * loss / np.sqrt(2) * mode.shape_sd / np.maximum(size, np.finfo(float).tiny)
+    return frequency, sd
+
+
+def _wave(
+    mode: ExtractedMode, name: tuple[int, int], points: Sequence[Dof], hammer: Dof
+) -> FloatArray | None:
+    """Mass-normalised radial amplitudes cos rθ, sin rθ at every point (1/√kg), shape (points, 2).
+
+    A sensor turns a doublet until its antinode lies at the sensor, so the motions of both shapes count.
+    """
+    order, axial = name
+    places = [point.position for point in points]
+    if hammer.position is None or hammer.angle is None or None in places or len(points) < _FEWEST_POINTS:
+        return None
+    theta = np.array([point.angle for point in points], dtype=float)
+    z = np.array([place[2] for place in places if place is not None])
+    middle, span = float(z.mean()), max(float(np.ptp(z)), np.finfo(float).tiny)
+    degree = min(axial + 1, len(np.unique(z.round(6))) - 1)
+    along = np.vander((z - middle) / span, degree + 1)
+    columns = np.concatenate([along * np.cos(order * theta)[:, None], along * np.sin(order * theta)[:, None]], axis=1)
+    size = float(np.abs(mode.participation[0]))
+    solution = np.linalg.lstsq(columns, mode.shape.real * size, rcond=None)[0].reshape(2, -1)
+    at_hammer = np.vander([(hammer.position[2] - middle) / span], degree + 1)[0] @ solution.T
+    square = abs(float(at_hammer @ [np.cos(order * hammer.angle), np.sin(order * hammer.angle)]))
+    if square <= 0.0:
+        return None
+    height = np.linalg.norm(along @ solution.T, axis=1) / np.sqrt(square)
+    return np.stack([height * np.cos(order * theta), height * np.sin(order * theta)], axis=1)
