@@ -7,7 +7,7 @@ reference, s_m = ω_m²(1 + iη_m), with the shift δ of set-up g, which is a po
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -19,7 +19,9 @@ RANK = 1e-12
 """Eigenvalues of scaled normal matrices below this are zero."""
 
 _SAFE_PIVOT = 1e-8
-_MANY_POINTS = 16  # from which on products of all pairs of columns are cheaper than weighted columns per point
+_MANY_POINTS = (
+    16  # from which on products of all pairs of columns are cheaper than weighted columns per point
+)
 
 
 @dataclass(frozen=True)
@@ -106,9 +108,7 @@ class Modes:
     def joined(self, other: Modes) -> Modes:
         """These modes and further ones."""
         shape = np.broadcast_shapes(self.shift[:, :1].shape, other.shift[:, :1].shape)
-        shifts = [
-            np.broadcast_to(one.shift, (shape[0], len(one), shape[2])) for one in (self, other)
-        ]
+        shifts = [np.broadcast_to(one.shift, (shape[0], len(one), shape[2])) for one in (self, other)]
         return Modes(
             np.concatenate([self.poles, other.poles]),
             np.concatenate([self.parts, other.parts]),

@@ -25,7 +25,9 @@ _TRIAL_ITERATIONS = 12  # the sweeps refine what is kept
 _SAME_SHAPE = 0.95  # MAC
 _FLANK = 10.0  # bandwidths over which a mode's own curve may be inexact …
 _LEAST_BESIDE = 0.1  # … by this part
-_MODEL_MISFIT = 1.5  # from which on the model, not the noise, limits what is explained; then a mode must make up …
+_MODEL_MISFIT = (
+    1.5  # from which on the model, not the noise, limits what is explained; then a mode must make up …
+)
 _LEAST_PRESENCE = 0.2  # … this part of the receptance at its frequency, in half of the FRFs
 
 

@@ -14,9 +14,9 @@ import numpy.typing as npt
 
 from statorhom.extraction.clusters import cluster_lines, clusters, nearest, tiles
 from statorhom.extraction.modal_model import Modes, Window, steady_modes
-from statorhom.extraction.noise import LEAST_MODEL_ERROR
 from statorhom.extraction.mode_count import drop_doubtful, grow, prune
 from statorhom.extraction.moving_modes import moving_set_ups, refitted, with_moving_modes
+from statorhom.extraction.noise import LEAST_MODEL_ERROR
 from statorhom.extraction.point_grid import PointGrid
 from statorhom.extraction.set_up_shifts import SetUps
 from statorhom.extraction.window_fit import WindowFit
@@ -151,7 +151,6 @@ class ModeSearch:
         poles = self.modes.poles.copy()
         poles[own] = np.nan
         self.modes = replace(self.modes, poles=poles).joined(fit.modes)
-
 
     def _with_moving(self, window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
         if self.set_ups is None:

@@ -35,7 +35,9 @@ def moving_set_ups(windows: FittedWindows) -> SetUps | None:
     """
     best, most = None, 0
     for set_ups in SetUps:
-        gains = [_promise(*one, set_ups) for one in windows if set_ups.count(one[0]) > 1 and len(one[1].modes)]
+        gains = [
+            _promise(*one, set_ups) for one in windows if set_ups.count(one[0]) > 1 and len(one[1].modes)
+        ]
         moving = sum(gain > 1.0 for gain, _ in gains)
         steady = sum(gain < _STEADY and left < _EXPLAINED for gain, left in gains)
         if moving > _MAJORITY * steady and moving > most:

@@ -54,9 +54,14 @@ class SensorTrend:
         """The trend in one line."""
         joint = self.shifts.joint
         low, high = (1000 * one for one in joint.ci90_kg)
-        said = f"the poles move with the sensor as a mass of {1000 * joint.mass_kg:.3g} g ({low:.3g} … {high:.3g} g) "
-        frequencies = ", ".join(f"{one:.2f}" for one in self.bare_hz)
-        return f"{said}moves them; without it the modes {', '.join(str(1 + m) for m in self.modes)} lie at {frequencies} Hz"
+        modes = ", ".join(
+            f"{1 + number}: {frequency:.2f} Hz"
+            for number, frequency in zip(self.modes, self.bare_hz, strict=True)
+        )
+        return (
+            f"the poles move from point to point as a sensor of {1000 * joint.mass_kg:.3g} g "
+            f"({low:.3g} … {high:.3g} g) moves them; without its radial inertia modes lie at {modes}"
+        )
 
 
 def sensor_trend(
@@ -89,7 +94,9 @@ def sensor_trend(
         return None
     square = np.mean(np.sum(amplitude**2, axis=2), axis=0)
     low, high = shifts.joint.ci90_kg
-    return SensorTrend(tuple(chosen), shifts, shifts.bare_hz, shifts.bare_hz * square * (high - low) / 2 / 3.29)
+    return SensorTrend(
+        tuple(chosen), shifts, shifts.bare_hz, shifts.bare_hz * square * (high - low) / 2 / 3.29
+    )
 
 
 def _frequencies(mode: ExtractedMode) -> tuple[FloatArray, FloatArray]:
@@ -119,7 +126,9 @@ def _wave(
     middle, span = float(z.mean()), max(float(np.ptp(z)), np.finfo(float).tiny)
     degree = min(axial + 1, len(np.unique(z.round(6))) - 1)
     along = np.vander((z - middle) / span, degree + 1)
-    columns = np.concatenate([along * np.cos(order * theta)[:, None], along * np.sin(order * theta)[:, None]], axis=1)
+    columns = np.concatenate(
+        [along * np.cos(order * theta)[:, None], along * np.sin(order * theta)[:, None]], axis=1
+    )
     size = float(np.abs(mode.participation[0]))
     solution = np.linalg.lstsq(columns, mode.shape.real * size, rcond=None)[0].reshape(2, -1)
     at_hammer = np.vander([(hammer.position[2] - middle) / span], degree + 1)[0] @ solution.T

@@ -25,7 +25,9 @@ _STARTS = np.linspace(-2.0, 2.0, 9)  # bandwidths
 _ROUNDS = 6
 _STEPS = 5  # Gauss–Newton steps per round
 _LARGEST_STEP = 0.5  # bandwidths
-_PRIOR = 1.0  # bandwidths: standard deviation of shifts before the data, which keeps those of unseen modes at 0
+_PRIOR = (
+    1.0  # bandwidths: standard deviation of shifts before the data, which keeps those of unseen modes at 0
+)
 _LEAST_GAIN = 1e-4  # part of χ² that a further round must bring
 
 
@@ -45,14 +47,19 @@ def shift_gains(window: Window, fit: WindowFit, neighbours: Modes, set_ups: SetU
     _, score, inner = _terms(window, fit.modes, neighbours, np.arange(len(fit.modes)), set_ups)
     diagonal = np.einsum("gaa->ga", inner)
     gain = np.divide(score.real**2, diagonal, out=np.zeros_like(diagonal), where=diagonal > 0)
-    summed: FloatArray = gain.reshape(-1, len(fit.modes), score.size // max(1, len(gain) * len(fit.modes))).sum(
-        axis=(0, 2)
-    )
+    summed: FloatArray = gain.reshape(
+        -1, len(fit.modes), score.size // max(1, len(gain) * len(fit.modes))
+    ).sum(axis=(0, 2))
     return summed
 
 
 def fit_shifted(
-    window: Window, modes: Modes, neighbours: Modes, moving: npt.ArrayLike, set_ups: SetUps, damped: bool = False
+    window: Window,
+    modes: Modes,
+    neighbours: Modes,
+    moving: npt.ArrayLike,
+    set_ups: SetUps,
+    damped: bool = False,
 ) -> WindowFit:
     """Fit with free shifts of some modes.
 
