@@ -124,7 +124,7 @@ def _wave(
     theta = np.array([point.angle for point in points], dtype=float)
     z = np.array([place[2] for place in places if place is not None])
     middle, span = float(z.mean()), max(float(np.ptp(z)), np.finfo(float).tiny)
-    degree = min(axial + 1, len(np.unique(z.round(6))) - 1)
+    degree = min(axial + 2, len(np.unique(z.round(6))) - 1)
     along = np.vander((z - middle) / span, degree + 1)
     columns = np.concatenate(
         [along * np.cos(order * theta)[:, None], along * np.sin(order * theta)[:, None]], axis=1
