@@ -40,7 +40,7 @@ def moving_set_ups(windows: FittedWindows) -> SetUps | None:
     for set_ups in SetUps:
         seen = [one for one in fitted if set_ups.count(one[0]) > 1]
         gains = [float(np.max(_promises(*one, set_ups))) for one in seen]
-        images = [_has_images(fit, set_ups) for _, fit, _ in seen]
+        images = [set_ups is SetUps.POINTS and _has_images(fit) for _, fit, _ in seen]
         steady = sum(
             gain < _STEADY and misfit(window, fit) < _EXPLAINED and not image
             for gain, image, (window, fit, _) in zip(gains, images, seen, strict=True)
@@ -53,11 +53,10 @@ def moving_set_ups(windows: FittedWindows) -> SetUps | None:
     return best
 
 
-def _has_images(fit: WindowFit, set_ups: SetUps) -> bool:
-    """Whether two poles that overlap belong to different set-ups: one mode in two places, exactly explained."""
+def _has_images(fit: WindowFit) -> bool:
+    """Whether two poles that overlap show at different points: one mode in two places, exactly explained."""
     poles, count = fit.modes.poles, len(fit.modes)
     size = np.abs((fit.linear.coefficients / fit.linear.norms)[:, :count])
-    size = size if set_ups is SetUps.POINTS else np.abs(fit.modes.parts).T
     unit = size / np.maximum(np.linalg.norm(size, axis=0), np.finfo(float).tiny)
     apart = unit.T @ unit < _APART
     near = np.abs(poles.real[:, None] - poles.real[None]) < _OVERLAP * np.minimum(
