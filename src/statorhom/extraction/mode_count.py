@@ -18,13 +18,14 @@ FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
 _MOST_NEW = 5  # modes per window and sweep
+_BESIDE = 2.0  # half-power bandwidths within which a doublet's other mode may lie that no stable pole shows
 _HOPELESS = 0.3  # of the price: a candidate that promises less before its pole is optimized is left
 _OUTSIDE = 0.5  # of a window's width that a pole may lie beyond it
 _CANDIDATES = 2
 _TRIAL_ITERATIONS = 12  # the sweeps refine what is kept
 _SAME_SHAPE = 0.95  # MAC
 _FLANK = 10.0  # bandwidths over which a mode's own curve may be inexact …
-_LEAST_BESIDE = 0.1  # … by this part
+_LEAST__BESIDE = 0.1  # … by this part
 _MODEL_MISFIT = (
     1.5  # from which on the model, not the noise, limits what is explained; then a mode must make up …
 )
@@ -134,7 +135,7 @@ def _with_candidate(
 
 
 def _near(pole: complex, others: ComplexArray) -> bool:
-    return bool(np.any(np.abs(others.real - pole.real) < np.maximum(others.imag, pole.imag)))
+    return bool(np.any(np.abs(others.real - pole.real) < _BESIDE * np.maximum(others.imag, pole.imag)))
 
 
 def repeats(fit: WindowFit, neighbours: Modes, index: int) -> bool:
@@ -155,7 +156,7 @@ def repeats(fit: WindowFit, neighbours: Modes, index: int) -> bool:
     distance = np.abs(poles.real - poles[index].real)
     curve = size / np.abs(poles - poles[index].real)
     overlap = distance < np.maximum(poles.imag, poles[index].imag)
-    beside = (distance < _FLANK * poles.imag) & (strength[index] < _LEAST_BESIDE * curve)
+    beside = (distance < _FLANK * poles.imag) & (strength[index] < _LEAST__BESIDE * curve)
     stronger = strength > strength[index]
     return bool(np.any((mac > _SAME_SHAPE) & stronger & (overlap | beside)))
 
