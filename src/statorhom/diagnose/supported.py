@@ -26,6 +26,7 @@ from statorhom.model.supports import support_on
 from statorhom.model.surface import surface_points
 from statorhom.modes.supported_names import name_supported
 from statorhom.physics.action import Action
+from statorhom.study.study import StudyFiles
 from statorhom.study.supports import FaceSupport, LineSupport, SupportKeys
 
 RIGID_PER_M2, RIGID_PER_M3 = 1e14, 1e16  # stiffness of what holds like a rock (N/m², N/m³)
@@ -63,6 +64,24 @@ def elastic_keys(keys: SupportKeys) -> SupportKeys:
     if isinstance(keys, FaceSupport):
         return FaceSupport.model_validate(table | {"normal_stiffness_n_per_m3": RIGID_PER_M3})
     return LineSupport.model_validate(table | {"normal_stiffness_n_per_m2": RIGID_PER_M2})
+
+
+def supported_test(
+    files: StudyFiles,
+    stage: StageModel,
+    test: MeasuredTest,
+    actions: Sequence[Action],
+    mark: tuple[Hashable, ...],
+) -> SupportedReference | None:
+    """Modes of a supported test under actions; `mark` has one entry per action that tells it from others."""
+    declared = files.study.support(test.support)
+    held = [a.supports[test.support] for a in actions if test.support in a.supports]
+    keys = held[-1] if held else declared
+    assert keys is not None
+    here = [(a, m) for a, m in zip(actions, mark, strict=True) if a.touches(stage.name, test.name)]
+    parts = [(attached(stage, a), m, test.support in a.supports) for a, m in here]
+    seen = tuple(m for part, m, held_otherwise in parts if part or held_otherwise)
+    return supported_reference(stage, test, keys, [c for part, _, _ in parts for c in part], seen)
 
 
 def attached(stage: StageModel, action: Action) -> list[Change]:
@@ -134,8 +153,14 @@ def predicted_logs(
     return total
 
 
-def partners(test: MeasuredTest, reference: SupportedReference, logs: np.ndarray) -> Partners:
+def partners(
+    stage: StageModel,
+    test: MeasuredTest,
+    reference: SupportedReference,
+    modes: Mapping[ModeKey, PredictedMode],
+) -> Partners:
     """Number of the supported mode that each measured one is, by shape or by name."""
+    logs = predicted_logs(stage, reference, modes)
     measured = np.log([m.frequency_hz for m in test.modes])
     cost = ((measured[:, None] - logs[None, :]) / LOG_SPREAD) ** 2
     if reference.radial is not None and test.shapes is not None:
@@ -161,7 +186,9 @@ def _mac(test: MeasuredTest, radial: np.ndarray) -> np.ndarray:
     return np.asarray(product / np.maximum(np.outer(np.sum(a**2, axis=1), np.sum(b**2, axis=1)), 1e-300))
 
 
-def supported_features(test: MeasuredTest, held: Partners, logs: np.ndarray) -> list[Feature]:
+def supported_features(
+    test: MeasuredTest, held: Partners, logs: np.ndarray, discrepancy: float
+) -> list[Feature]:
     """Frequencies of a supported test; each mode is a group of its own."""
     found = []
     for number, (mode, partner) in enumerate(zip(test.modes, held, strict=True)):
@@ -169,7 +196,7 @@ def supported_features(test: MeasuredTest, held: Partners, logs: np.ndarray) -> 
         if partner is None or partner >= len(logs):
             found.append(Feature("frequency", test.name, None, LOST, 0.0, 1.0))
             continue
-        sd = float(np.hypot(measured_sd(mode), OWN))
+        sd = float(np.sqrt(measured_sd(mode) ** 2 + OWN**2 + discrepancy**2))
         measured = float(np.log(mode.frequency_hz))
         found.append(Feature("frequency", test.name, key, measured, float(logs[partner]), sd))
     return found
