@@ -1,4 +1,4 @@
-"""Doublets found by split, noise and number of references: statorhom, sdypy-EMA and the circle fit.
+"""Doublets found by split, noise and number of references: statorhom, sdypy-EMA, pyFBS and the circle fit.
 
 Synthetic rings: 24 × 4 points, two modes of one order turned by a quarter wave against each other, a further mode
 on each side, noise in proportion to the magnitude and a floor 70 dB below the largest value. A doublet counts as
@@ -14,10 +14,11 @@ import argparse
 import contextlib
 import io
 import json
+import os
 import sys
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -60,6 +61,13 @@ def ring(split: float, noise: float, references: int, seed: int) -> tuple[FrfSet
     return frf_set(AXIS_HZ, points, rows, poles, shapes, noise=noise, seed=seed), pair
 
 
+@contextlib.contextmanager
+def quiet() -> Iterator[None]:
+    """Without the progress bars of others."""
+    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+        yield
+
+
 def ours(frfs: FrfSet, _: list[float]) -> np.ndarray:
     return np.array([mode.frequency_hz for mode in extract(frfs).modes])
 
@@ -68,7 +76,7 @@ def sdypy(frfs: FrfSet, pair: list[float]) -> np.ndarray:
     """Poles that sdypy-EMA returns when it is told where to look: it takes the two true frequencies as picks."""
     from sdypy import EMA
 
-    with warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()), contextlib.suppress(Exception):
+    with warnings.catch_warnings(), quiet(), contextlib.suppress(Exception):
         warnings.simplefilter("ignore")
         model = EMA.Model(
             frfs.accelerance[: len(set(frfs.responses))],
@@ -81,6 +89,28 @@ def sdypy(frfs: FrfSet, pair: list[float]) -> np.ndarray:
         model.get_poles(show_progress=False)
         model.select_closest_poles(pair)
         return np.array(model.nat_freq, dtype=float)
+    return np.zeros(0)
+
+
+def pyfbs(frfs: FrfSet, pair: list[float]) -> np.ndarray:
+    """Of pyFBS's poles that are stable in frequency and damping at any order, the nearest to each true frequency.
+
+    Its estimator needs an axis that begins at 0: the lines are moved there and the poles back.
+    """
+    os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+    with warnings.catch_warnings(), quiet(), contextlib.suppress(Exception):
+        warnings.simplefilter("ignore")
+        from pyfbs.modal_id.modal_id import ModalID
+
+        points = len(set(frfs.responses))
+        matrix = frfs.receptance.reshape(-1, points, len(AXIS_HZ)).transpose(2, 1, 0)
+        model = ModalID(AXIS_HZ - AXIS_HZ[0], matrix)
+        model.p_lscf(max_order=40)
+        stable = [row[1] for row in model.stab_plot if row[3] >= 2]
+        poles = np.concatenate([found[0] for found in model.poles])
+        # the axis moved: only a pole's imaginary part tells its frequency
+        damped = np.abs(poles.imag)[np.isin(np.abs(poles) / (2 * np.pi), stable)] / (2 * np.pi) + AXIS_HZ[0]
+        return np.array([damped[np.argmin(np.abs(damped - one))] for one in pair])
     return np.zeros(0)
 
 
@@ -102,6 +132,7 @@ def sdof(frfs: FrfSet, _: list[float]) -> np.ndarray:
 METHODS: dict[str, Callable[[FrfSet, list[float]], np.ndarray]] = {
     "statorhom": ours,
     "sdypy-EMA": sdypy,
+    "pyFBS": pyfbs,
     "circle fit": sdof,
 }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -65,6 +66,27 @@ def test_a_file_that_is_no_recording_is_refused(tmp_path: Path) -> None:
     outcome = statorhom("modes", tmp_path / "ring.uff", "--out", tmp_path / "o")
     assert outcome.code == 2
     assert "ring.uff" in outcome.stderr and len(outcome.stderr.splitlines()) == 1
+
+
+def test_remarks_of_recordings_reach_the_report(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from cheap_study import coarse
+    from statorhom import Study
+    from statorhom.identify import recorded_tests
+
+    extracted = recorded_tests.measured_modes
+    monkeypatch.setattr("statorhom.api.Settings", coarse)
+    monkeypatch.setattr(
+        recorded_tests,
+        "measured_modes",
+        lambda *arguments: replace(extracted(*arguments), remarks=("hit 3: the force overloads",)),
+    )
+    study = write_study(tmp_path / "study")
+    write_recording(tmp_path / "study" / "stack.uff")
+    edit(study, 'modal_table = "stack.csv"', 'frf = "stack.uff"')
+    for folder in ("out", "out"):  # the second time from what was kept
+        stage = Study.load(study).fit(tmp_path / folder, stage="stack").stages[0]
+        assert "test 'stack-free': hit 3: the force overloads" in stage.warnings
+        (tmp_path / folder / "results.json").unlink()
 
 
 def test_a_study_fits_its_recordings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -83,4 +83,6 @@ def _table(measured: MeasuredModes) -> pd.DataFrame:
         for number, one in enumerate(measured.modes, start=1)
     ]
     table = pd.DataFrame(rows)
+    if measured.sensor is not None:
+        table["frequency_without_sensor_hz"] = measured.bare_hz
     return table.astype({"order": "Int64", "axial": "Int64"}) if rows else table

@@ -9,6 +9,7 @@ import pytest
 
 from statorhom.errors import ExtractionError
 from statorhom.extraction import Extraction, extract
+from statorhom.extraction.measured_modes import _named
 from statorhom.modes.mac import mac, subspace_mac
 from statorhom.recordings.frf_set import FrfSet
 from synthetic_frfs import frf_set, ring_points, ring_shape
@@ -163,3 +164,29 @@ def test_sets_on_different_axes_are_refused() -> None:
     other = frf_set(AXIS + 0.5, POINTS, [0], POLES, SHAPES)
     with pytest.raises(ExtractionError, match="frequency axis"):
         extract([measured(), other])
+
+
+@pytest.mark.slow
+def test_shapes_and_names_of_a_stator_s_doublets() -> None:
+    """24 × 4 points, two hammer points, eight doublets split by a quarter of their bandwidth, 1 % noise."""
+    points = ring_points(24, 4)
+    names, poles, shapes = [], [], []
+    for order, axial, frequency in (
+        (2, 0, 900.0),
+        (2, 1, 1250.0),
+        (3, 0, 1700.0),
+        (3, 1, 2100.0),
+        (4, 0, 2500.0),
+    ):
+        for turn in (0.0, np.pi / (2 * order)):
+            names.append((order, axial))
+            poles.append((frequency * (1 + 2.5e-3 * (turn > 0)), 0.01))
+            shapes.append(ring_shape(points, order, 0.3 + turn, axial))
+    frfs = frf_set(np.arange(500.0, 2900.0), points, [0, 27], poles, np.array(shapes), noise=0.01)
+    found = extract(frfs)
+    named, _ = _named(found)
+    assert [(one.order, one.axial) for one in named] == names
+    for mode, shape, (frequency, loss) in zip(found.modes, shapes, poles, strict=True):
+        assert mac(mode.shape, shape) >= 0.98
+        assert mode.frequency_hz == pytest.approx(frequency, rel=5e-4)
+        assert mode.loss_factor == pytest.approx(loss, rel=0.08)

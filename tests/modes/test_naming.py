@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from synthetic_shapes import PLANES_M, equidistant, shape
 
 from statorhom.errors import IdentificationError
-from statorhom.modes.naming import name_shape, node_planes
+from statorhom.modes.naming import measured_node_planes, name_shape
 
 
 @pytest.mark.parametrize("order", range(7))
@@ -108,9 +108,9 @@ def test_ring_bending_is_visible_by_its_radial_part():
 
 
 def test_noise_may_hide_the_node_planes_but_not_invent_them():
-    assert node_planes([1.0, 0.2, -0.2, 0.3], [0, 1, 2, 3], noise=0.0) == 2
-    assert node_planes([1.0, 0.2, -0.2, 0.35], [0, 1, 2, 3], noise=0.1) == 0
-    assert node_planes([1.0, 0.2, -0.2, 0.3], [0, 1, 2, 3], noise=0.2) is None
+    assert measured_node_planes([1.0, 0.2, -0.2, 0.3], [0, 1, 2, 3], noise=0.0) == 2
+    assert measured_node_planes([1.0, 0.2, -0.2, 0.35], [0, 1, 2, 3], noise=0.1) == 0
+    assert measured_node_planes([1.0, 0.2, -0.2, 0.3], [0, 1, 2, 3], noise=0.2) is None
 
 
 @pytest.mark.parametrize(

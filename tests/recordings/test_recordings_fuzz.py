@@ -148,6 +148,38 @@ def test_many_damaged_files(tmp_path, name, changes):
     check(tmp_path / name, mutated(valid(name), changes))
 
 
+def hdf5(path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(path, "w") as file:
+        file["frequency_hz"], file["accelerance"] = FREQUENCY, np.ones((2, 6), complex)
+        file["response_node"], file["reference_node"], file["response_mm"] = [1, 2], [9, 9], np.eye(3)[:2]
+
+
+@pytest.fixture(scope="module")
+def hdf5_content(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    path = tmp_path_factory.mktemp("hdf5") / "frf.h5"
+    hdf5(path)
+    return path.read_bytes()
+
+
+def test_an_unchanged_hdf5_file_is_read(tmp_path, hdf5_content):
+    assert check(tmp_path / "frf.h5", hdf5_content)
+
+
+# every file is read in a process of its own, which takes a while
+@pytest.mark.slow
+@fuzz(2_000)
+@given(changes=CHANGES)
+def test_damaged_hdf5_files(tmp_path, hdf5_content, changes):
+    check(tmp_path / "frf.h5", mutated(hdf5_content, changes))
+
+
+@fuzz(12)
+@given(changes=CHANGES)
+def test_a_few_damaged_hdf5_files(tmp_path, hdf5_content, changes):
+    check(tmp_path / "frf.h5", mutated(hdf5_content, changes))
+
+
 @pytest.mark.parametrize("ending", ["uff", "csv", "mat", "wav", ""])
 @fuzz(30)
 @given(content=st.binary(max_size=200))

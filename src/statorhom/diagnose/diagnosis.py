@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -17,6 +17,7 @@ from statorhom.diagnose.explanations import (
     Explanation,
     effect_evidence,
     nothing,
+    sharpened,
     single_effects,
     with_second,
 )
@@ -115,6 +116,9 @@ def _find(
     progress(1)
     none = nothing(base.refit)
     best = found[0] if found else none
+    if found:
+        # reported numbers come from the explanation's own model, comparisons from the common one
+        best = replace(sharpened(best), log_evidence=best.log_evidence)
     evidence = _evidence(base, best, none, found, signatures, settings.seed)
     return Found(decide(evidence), best, tuple(found), signatures, evidence, base)
 

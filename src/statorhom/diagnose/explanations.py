@@ -11,8 +11,10 @@ from scipy.stats import chi2
 
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.mislabelled import worth_trying
+from statorhom.diagnose.prediction import acted_materials
 from statorhom.diagnose.refit import Refit, refit
 from statorhom.diagnose.scan import Scan, Signature
+from statorhom.diagnose.stage_model import mesh_error, with_reference
 from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
 
@@ -97,6 +99,22 @@ def with_second(first: Explanation, others: Sequence[Signature], counts: dict[st
         if best is not None:
             found.append(_explanation(best, counts))
     return sorted(found, key=lambda e: -e.log_evidence)
+
+
+def sharpened(explanation: Explanation) -> Explanation:
+    """The same with basis and mesh factors of its own materials: the declared model's may be far from them."""
+    r = explanation.refit
+    hypothesis = r.hypothesis
+    values, actions = hypothesis.study.constants.values(r.z[: hypothesis.constants]), hypothesis.actions(r.z)
+    stages = []
+    for stage in hypothesis.study.stages:
+        materials = acted_materials(hypothesis.study, stage, values, actions)
+        near = with_reference(stage, materials)
+        error = mesh_error(stage.setup, near.ring, materials, stage.density)
+        stages.append(replace(near, error=error))
+    moved = replace(hypothesis, study=hypothesis.study.with_stages(tuple(stages)), held=None)
+    again = _refitted(moved, r.z)
+    return explanation if again is None else replace(explanation, refit=again)
 
 
 def _explanation(best: Refit, counts: dict[str, int]) -> Explanation:

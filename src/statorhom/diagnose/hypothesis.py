@@ -26,18 +26,17 @@ from statorhom.diagnose.masses import (
     stage_densities,
 )
 from statorhom.diagnose.measured import MeasuredTest
-from statorhom.diagnose.prediction import PredictedMode, acted_materials, material_vector, predicted
+from statorhom.diagnose.prediction import PredictedMode, predicted
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.diagnose.supported import (
     Partners,
-    SupportedReference,
     partners,
     predicted_logs,
     supported_features,
-    supported_reference,
+    supported_test,
+    without_attachments,
 )
-from statorhom.errors import StatorhomError
 from statorhom.model.convergence import ModeKey
 from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
@@ -46,10 +45,8 @@ from statorhom.study.modal_table import MeasuredMode
 from statorhom.study.study_file import FREE
 
 FloatArray = npt.NDArray[np.float64]
-STEP = 1e-3  # of internal coordinates
-EFFECT_STEP = 1e-2
-
 Predictions = Mapping[str, Mapping[ModeKey, PredictedMode]]
+Told = Mapping[str, tuple[StageModel, Predictions]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,10 +134,11 @@ class Hypothesis:
         missed = 0.0
         for stage in self.study.stages:
             for test in stage.tests:
+                found = self._predicted(stage, test, values, actions, self.mark(z))
                 if test.support != FREE:
-                    held[test.name] = self._supported_partners(stage, test, values, actions, self.mark(z))
+                    reference = supported_test(self.study.files, stage, test, actions, self.mark(z))
+                    held[test.name] = () if reference is None else partners(stage, test, reference, found)
                 else:
-                    found = predicted(self.study, stage, values, actions, test.name, self.mark(z))
                     keys = assigned(test, self.modes(test, actions), found)
                     held[test.name] = keys
                     missed += missed_cost(test, keys, found)
@@ -156,10 +154,10 @@ class Hypothesis:
 
     def features(self, z: FloatArray, left_out: bool = False) -> list[Feature]:
         """All features that are seen, or those that are left out."""
-        found, _ = self._features(z)
-        return [f for f in found if self._sees(f) != left_out]
+        found, _ = self.all_features(z)
+        return [f for f in found if self.sees(f) != left_out]
 
-    def _sees(self, feature: Feature) -> bool:
+    def sees(self, feature: Feature) -> bool:
         """Wide valleys are sought with frequencies alone."""
         if self.discrepancy and feature.kind not in ("frequency", "density"):
             return False
@@ -169,64 +167,41 @@ class Hypothesis:
         """Of the features that are seen, without the prior."""
         return np.array([f.residual for f in self.features(z)])
 
-    def _features(
-        self, z: FloatArray, moved: Mapping[str, tuple[StageModel, Predictions]] | None = None
-    ) -> tuple[list[Feature], dict[str, tuple[StageModel, Predictions]]]:
+    def all_features(self, z: FloatArray, moved: Told | None = None) -> tuple[list[Feature], Told]:
+        """Features whether seen or not, and the predictions behind them; `moved` stands in for these."""
         values, actions = self.study.constants.values(z[: self.constants]), self.actions(z)
         assert self.held is not None
         found = self._densities(values, actions)
         told: dict[str, tuple[StageModel, Predictions]] = {}
         for stage in self.study.stages:
-            free: dict[str, Mapping[ModeKey, PredictedMode]] = {}
+            known: dict[str, Mapping[ModeKey, PredictedMode]] = {}
             for test in stage.tests:
-                known = moved[stage.name][1].get(test.name) if moved else None
-                if test.support != FREE:
-                    modes = known if known is not None else self._unsupported(stage, test, values, actions)
-                    found += self._supported(stage, test, modes, actions, self.mark(z))
+                if moved is None:
+                    modes = self._predicted(stage, test, values, actions, self.mark(z))
+                    held = self.held[test.name]
+                    # of free tests only what has a measured partner matters
+                    known[test.name] = {k: m for k, m in modes.items() if test.support != FREE or k in held}
                 else:
-                    modes = (
-                        known
-                        if known is not None
-                        else self._partners(stage, test, values, actions, self.mark(z))
-                    )
-                    found += self._free(stage, test, modes, values, actions)
-                free[test.name] = modes
-            told[stage.name] = (stage, free)
+                    known[test.name] = moved[stage.name][1][test.name]
+                if test.support != FREE:
+                    found += self._supported(stage, test, known[test.name], actions, self.mark(z))
+                else:
+                    found += self._free(stage, test, known[test.name], values, actions)
+            told[stage.name] = (stage, known)
         return found, told
 
-    def _unsupported(
-        self, stage: StageModel, test: MeasuredTest, values: Mapping[str, float], actions: Sequence[Action]
-    ) -> dict[ModeKey, PredictedMode]:
-        """Free modes that a supported test is made of; what breaks the symmetry is solved with the support."""
-        return predicted(self.study, stage, values, [replace(a, changes=None) for a in actions], test.name)
-
-    def _supported_partners(
+    def _predicted(
         self,
         stage: StageModel,
         test: MeasuredTest,
         values: Mapping[str, float],
         actions: Sequence[Action],
-        mark: tuple[Hashable, ...],
-    ) -> Partners:
-        reference = self._reference(stage, test, actions, mark)
-        if reference is None:
-            return ()
-        logs = predicted_logs(stage, reference, self._unsupported(stage, test, values, actions))
-        return partners(test, reference, logs)
-
-    def _reference(
-        self, stage: StageModel, test: MeasuredTest, actions: Sequence[Action], mark: tuple[Hashable, ...]
-    ) -> SupportedReference | None:
-        declared = self.study.files.study.support(test.support)
-        held = [a.supports[test.support] for a in actions if test.support in a.supports]
-        keys = held[-1] if held else declared
-        assert keys is not None
-        here = [
-            (a, m)
-            for a, m in zip(actions, mark, strict=True)
-            if a.touches(stage.name, test.name) and (a.changes or test.support in a.supports)
-        ]
-        return supported_reference(stage, test, keys, [a for a, _ in here], tuple(m for _, m in here))
+        mark: Hashable,
+    ) -> dict[ModeKey, PredictedMode]:
+        """Named free modes; of a supported test those that it is made of, without what is attached."""
+        if test.support != FREE:
+            actions = [without_attachments(a) for a in actions]
+        return predicted(self.study, stage, values, actions, test.name, mark)
 
     def _supported(
         self,
@@ -237,27 +212,11 @@ class Hypothesis:
         mark: tuple[Hashable, ...],
     ) -> list[Feature]:
         assert self.held is not None
-        reference = self._reference(stage, test, actions, mark)
+        reference = supported_test(self.study.files, stage, test, actions, mark)
         if reference is None:
             return []
-        found = supported_features(
-            test, cast(Partners, self.held[test.name]), predicted_logs(stage, reference, modes)
-        )
-        return [replace(f, sd=float(np.hypot(f.sd, self.discrepancy))) if f.key else f for f in found]
-
-    def _partners(
-        self,
-        stage: StageModel,
-        test: MeasuredTest,
-        values: Mapping[str, float],
-        actions: Sequence[Action],
-        mark: Hashable,
-    ) -> dict[ModeKey, PredictedMode]:
-        """Predicted modes that have a measured partner."""
-        assert self.held is not None
-        held = self.held[test.name]
-        found = predicted(self.study, stage, values, actions, test.name, mark)
-        return {key: mode for key, mode in found.items() if key in held}
+        logs = predicted_logs(stage, reference, modes)
+        return supported_features(test, cast(Partners, self.held[test.name]), logs, self.discrepancy)
 
     def _free(
         self,
@@ -303,77 +262,3 @@ class Hypothesis:
             return []
         rho = density["lamination"]
         return [Feature("density", "", None, rho, LAMINATION_DENSITY, LAMINATION_DENSITY_SD)]
-
-    def jacobian(self, z: FloatArray) -> FloatArray:
-        """Derivative of the residuals, (features, coordinates)."""
-        base, told = self._features(z)
-        seen = [i for i, f in enumerate(base) if self._sees(f)]
-        start = np.array([base[i].residual for i in seen])
-        columns = []
-        for j in range(self.constants):
-            columns.append(self._constant_column(z, j, told, seen, start))
-        for j in range(self.constants, len(z)):
-            columns.append(self._effect_column(z, j, start))
-        return np.array(columns).T.reshape(len(start), len(z))
-
-    def _constant_column(
-        self,
-        z: FloatArray,
-        j: int,
-        told: Mapping[str, tuple[StageModel, Predictions]],
-        seen: Sequence[int],
-        start: FloatArray,
-    ) -> FloatArray:
-        upper = self.study.constants.limits[1][j]
-        for sign in (1.0, -1.0) if z[j] + STEP <= upper else (-1.0,):
-            moved = z.copy()
-            moved[j] += sign * STEP
-            try:
-                found, _ = self._features(moved, self._moved(z, moved, told))
-            except StatorhomError:
-                continue  # at the edge of what materials exist
-            return (np.array([found[i].residual for i in seen]) - start) / (sign * STEP)
-        return np.zeros(len(start))
-
-    def _effect_column(self, z: FloatArray, j: int, start: FloatArray) -> FloatArray:
-        for sign in (1.0, -1.0):
-            moved = z.copy()
-            moved[j] += sign * EFFECT_STEP
-            try:
-                return (self.residuals(moved) - start) / (sign * EFFECT_STEP)
-            except StatorhomError:
-                continue
-        return np.zeros(len(start))
-
-    def _moved(
-        self, z: FloatArray, moved: FloatArray, told: Mapping[str, tuple[StageModel, Predictions]]
-    ) -> dict[str, tuple[StageModel, Predictions]]:
-        """Predictions at a neighbouring point to first order: eigenvalues are not solved again."""
-        actions = self.actions(z)
-        before, after = (self.study.constants.values(p[: self.constants]) for p in (z, moved))
-        changed = {name for name in after if after[name] != before[name]}
-        found: dict[str, tuple[StageModel, Predictions]] = {}
-        for name, (stage, tests) in told.items():
-            new: dict[str, Mapping[ModeKey, PredictedMode]] = {}
-            for test, modes in tests.items():
-                new[test] = modes
-                if not any(_concerns(self.study, stage, one) for one in changed):
-                    continue
-                parts = [acted_materials(self.study, stage, v, actions, test) for v in (before, after)]
-                regions = tuple(parts[0])
-                change = material_vector(parts[1], regions) - material_vector(parts[0], regions)
-                slopes = stage.slopes(parts[0], modes)
-                mesh = after[f"{stage.name}:mesh"] - before[f"{stage.name}:mesh"]
-                new[test] = {
-                    key: replace(
-                        modes[key], log_f=modes[key].log_f + slope @ change + mesh * modes[key].shared
-                    )
-                    for key, slope in slopes.items()
-                }
-            found[name] = (stage, new)
-        return found
-
-
-def _concerns(study: StudyModel, stage: StageModel, constant: str) -> bool:
-    owners = study.constants.owners[stage.setup.index].values()
-    return constant in owners or constant.endswith("mass_kg") or constant == f"{stage.name}:mesh"

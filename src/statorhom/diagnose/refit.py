@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from statorhom.diagnose.derivatives import jacobian
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.errors import StatorhomError
 
@@ -89,7 +90,7 @@ def evaluated(hypothesis: Hypothesis, z: FloatArray) -> Refit:
     paired = hypothesis.paired(z)
     residuals = paired.residuals(z)
     objective = _objective(residuals, z, paired.prior_weights) + paired.missed
-    return Refit(paired, z, paired.jacobian(z), float(residuals @ residuals), objective)
+    return Refit(paired, z, jacobian(paired, z), float(residuals @ residuals), objective)
 
 
 def _polished(hypothesis: Hypothesis, z: FloatArray) -> Refit:
@@ -98,7 +99,7 @@ def _polished(hypothesis: Hypothesis, z: FloatArray) -> Refit:
     residuals = hypothesis.residuals(z)
     objective = _objective(residuals, z, weights)
     damping = 1e-3
-    J = hypothesis.jacobian(z)
+    J = jacobian(hypothesis, z)
     for _ in range(ITERATIONS):
         gradient = J.T @ residuals + weights * z
         H = J.T @ J + np.diag(weights)
@@ -122,7 +123,7 @@ def _polished(hypothesis: Hypothesis, z: FloatArray) -> Refit:
         gain = objective - value
         z, residuals, objective = trial, new, value
         damping = damping / 10
-        J = hypothesis.jacobian(z)
+        J = jacobian(hypothesis, z)
         if gain < SETTLED:
             break
     return Refit(hypothesis, z, J, float(residuals @ residuals), objective + hypothesis.missed)

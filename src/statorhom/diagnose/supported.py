@@ -7,7 +7,7 @@ theirs, weighted by their shares in the strain energy. A support declared rigid 
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -16,13 +16,17 @@ from statorhom.diagnose.features import LOST, Feature, measured_sd
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.diagnose.stage_model import StageModel
+from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.model.affine import Materials
 from statorhom.model.broken.attachments import springs
+from statorhom.model.broken.change import Attachment, Change
 from statorhom.model.broken.solve import BrokenModes, solve_broken
 from statorhom.model.convergence import ModeKey
 from statorhom.model.supports import support_on
 from statorhom.model.surface import surface_points
 from statorhom.modes.supported_names import name_supported
 from statorhom.physics.action import Action
+from statorhom.study.study import StudyFiles
 from statorhom.study.supports import FaceSupport, LineSupport, SupportKeys
 
 RIGID_PER_M2, RIGID_PER_M3 = 1e14, 1e16  # stiffness of what holds like a rock (N/m², N/m³)
@@ -62,13 +66,49 @@ def elastic_keys(keys: SupportKeys) -> SupportKeys:
     return LineSupport.model_validate(table | {"normal_stiffness_n_per_m2": RIGID_PER_M2})
 
 
-def supported_reference(
-    stage: StageModel, test: MeasuredTest, keys: SupportKeys, actions: Sequence[Action], mark: Hashable
+def supported_test(
+    files: StudyFiles,
+    stage: StageModel,
+    test: MeasuredTest,
+    actions: Sequence[Action],
+    mark: tuple[Hashable, ...],
 ) -> SupportedReference | None:
-    """Modes of a supported test; None for supports that hold end faces."""
+    """Modes of a supported test under actions; `mark` has one entry per action that tells it from others."""
+    declared = files.study.support(test.support)
+    held = [a.supports[test.support] for a in actions if test.support in a.supports]
+    keys = held[-1] if held else declared
+    assert keys is not None
+    here = [(a, m) for a, m in zip(actions, mark, strict=True) if a.touches(stage.name, test.name)]
+    parts = [(attached(stage, a), m, test.support in a.supports) for a, m in here]
+    seen = tuple(m for part, m, held_otherwise in parts if part or held_otherwise)
+    return supported_reference(stage, test, keys, [c for part, _, _ in parts for c in part], seen)
+
+
+def attached(stage: StageModel, action: Action) -> list[Change]:
+    """What an action attaches to the surface."""
+    changes = action.changes(stage.model.mesh, stage.reference) if action.changes else ()
+    return [c for c in changes if isinstance(c, Attachment)]
+
+
+def without_attachments(action: Action) -> Action:
+    """The rest: stiffness that varies counts by how far it shifts the free modes."""
+    rule = action.changes
+    if rule is None:
+        return action
+
+    def rest(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
+        return tuple(c for c in rule(mesh, materials) if not isinstance(c, Attachment))
+
+    return replace(action, changes=rest)
+
+
+def supported_reference(
+    stage: StageModel, test: MeasuredTest, keys: SupportKeys, more: Sequence[Change], mark: Hashable
+) -> SupportedReference | None:
+    """Modes of a supported test with what else is attached; None for supports that hold end faces."""
     place = ("supported", test.name, mark)
     if mark is None or place not in stage.kept_responses:
-        found = _solved(stage, test, keys, actions)
+        found = _solved(stage, test, keys, more)
         while len(stage.kept_responses) >= 32:
             stage.kept_responses.pop(next(iter(stage.kept_responses)))
         stage.kept_responses[place] = found
@@ -77,14 +117,13 @@ def supported_reference(
 
 
 def _solved(
-    stage: StageModel, test: MeasuredTest, keys: SupportKeys, actions: Sequence[Action]
+    stage: StageModel, test: MeasuredTest, keys: SupportKeys, more: Sequence[Change]
 ) -> SupportedReference | None:
     mesh = stage.model.mesh
     support = support_on(mesh, elastic_keys(keys))
     if support.ends is not None or support.points.stiffness is None:
         return None
-    changes = [c for a in actions if a.changes for c in a.changes(mesh, stage.reference)]
-    modes = solve_broken(stage.broken, [springs(mesh, support.points), *changes], tolerance=None)
+    modes = solve_broken(stage.broken, [springs(mesh, support.points), *more], tolerance=None)
     log_f = np.log(modes.frequencies_hz)
     shares = {key: _share(modes, stage, key) for key in stage.columns}
     if test.shapes is None:
@@ -114,8 +153,14 @@ def predicted_logs(
     return total
 
 
-def partners(test: MeasuredTest, reference: SupportedReference, logs: np.ndarray) -> Partners:
+def partners(
+    stage: StageModel,
+    test: MeasuredTest,
+    reference: SupportedReference,
+    modes: Mapping[ModeKey, PredictedMode],
+) -> Partners:
     """Number of the supported mode that each measured one is, by shape or by name."""
+    logs = predicted_logs(stage, reference, modes)
     measured = np.log([m.frequency_hz for m in test.modes])
     cost = ((measured[:, None] - logs[None, :]) / LOG_SPREAD) ** 2
     if reference.radial is not None and test.shapes is not None:
@@ -141,7 +186,9 @@ def _mac(test: MeasuredTest, radial: np.ndarray) -> np.ndarray:
     return np.asarray(product / np.maximum(np.outer(np.sum(a**2, axis=1), np.sum(b**2, axis=1)), 1e-300))
 
 
-def supported_features(test: MeasuredTest, held: Partners, logs: np.ndarray) -> list[Feature]:
+def supported_features(
+    test: MeasuredTest, held: Partners, logs: np.ndarray, discrepancy: float
+) -> list[Feature]:
     """Frequencies of a supported test; each mode is a group of its own."""
     found = []
     for number, (mode, partner) in enumerate(zip(test.modes, held, strict=True)):
@@ -149,7 +196,7 @@ def supported_features(test: MeasuredTest, held: Partners, logs: np.ndarray) -> 
         if partner is None or partner >= len(logs):
             found.append(Feature("frequency", test.name, None, LOST, 0.0, 1.0))
             continue
-        sd = float(np.hypot(measured_sd(mode), OWN))
+        sd = float(np.sqrt(measured_sd(mode) ** 2 + OWN**2 + discrepancy**2))
         measured = float(np.log(mode.frequency_hz))
         found.append(Feature("frequency", test.name, key, measured, float(logs[partner]), sd))
     return found

@@ -19,8 +19,8 @@ from statorhom.recordings.frf_set import FrfSet
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
-_KNOWN = 5e-4  # largest standard deviation of a frequency in a modal table, relative …
-_KNOWN_LINES = 0.1  # … or in lines; among strongly damped modes that overlap it is more
+_BROAD = 0.1  # loss factor from which on a mode has no peak of its own among others; then …
+_KNOWN = 5e-4  # … its frequency's standard deviation must be less than this part of it
 _LOCATED = 0.5  # largest standard deviation of a mode's frequency, in half-power bandwidths
 
 
@@ -54,8 +54,7 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
     found = [mode for one, _ in windows for mode in mode_estimates(one, grid, stabilization, decay)]
     found.sort(key=lambda mode: mode.frequency_hz)
     band = (float(grid.omega[0] / (2 * np.pi)), float(grid.omega[-1] / (2 * np.pi)))
-    spacing = (band[1] - band[0]) / (len(grid.omega) - 1)
-    listed = [_is_mode(mode, band, spacing) for mode in found]
+    listed = [_is_mode(mode, band) for mode in found]
     modes = tuple(mode for mode, inside in zip(found, listed, strict=True) if inside)
     outside = tuple(mode for mode, inside in zip(found, listed, strict=True) if not inside)
     mass_line, stiffness_line = _residual_terms(grid, sd, found)
@@ -80,10 +79,10 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
     )
 
 
-def _is_mode(mode: ExtractedMode, band: tuple[float, float], spacing_hz: float) -> bool:
+def _is_mode(mode: ExtractedMode, band: tuple[float, float]) -> bool:
     """Whether a pole is listed: inside the band, shown by enough model orders and located."""
-    known = max(_KNOWN * mode.frequency_hz, _KNOWN_LINES * spacing_hz)
-    located = mode.frequency_sd_hz < min(known, _LOCATED * mode.bandwidth_hz)
+    broad = mode.bandwidth_hz > _BROAD * mode.frequency_hz
+    located = mode.frequency_sd_hz < (_KNOWN * mode.frequency_hz if broad else _LOCATED * mode.bandwidth_hz)
     return band[0] <= mode.frequency_hz <= band[1] and located and mode.stability >= LEAST_SHARE
 
 

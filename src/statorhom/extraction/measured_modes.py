@@ -6,10 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from statorhom.errors import IdentificationError, RecordingError
 from statorhom.extraction.extract import extract
 from statorhom.extraction.extraction import ExtractedMode, Extraction
 from statorhom.extraction.mode_hints import ModeHints, mode_hints
+from statorhom.extraction.sensor_trend import SensorTrend, sensor_trend
+from statorhom.extraction.turned_partner import turned_partners
 from statorhom.modes.doublets import DoubletPair, find_doublets
 from statorhom.modes.measured_name import MeasuredName, name_measured
 from statorhom.modes.measured_shape import MeasuredShape, measured_shapes
@@ -38,6 +42,8 @@ class NamedMode:
         Antinode and sidebands of a mode with an order.
     hints : ModeHints or None
         Whether its FRFs look non-linear.
+    doublet : (r, n) or None
+        Name of the mode whose other half this is, where a roving sensor turned both: the shape tells nothing.
     """
 
     mode: ExtractedMode
@@ -45,16 +51,21 @@ class NamedMode:
     name: MeasuredName | None = None
     features: ShapeFeatures | None = None
     hints: ModeHints | None = None
+    doublet: tuple[int, int | None] | None = None
 
     @property
     def order(self) -> int | None:
         """Circumferential order r; None where the points do not tell it beyond doubt."""
+        if self.doublet is not None:
+            return self.doublet[0]
         sure = self.name is not None and (self.name.confidence or 0.0) >= CONFIDENT
         return self.name.name.order if sure and self.name and self.name.name else None
 
     @property
     def axial(self) -> int | None:
         """Axial node planes n; None where unknown."""
+        if self.doublet is not None:
+            return self.doublet[1]
         return None if self.order is None or not self.name or not self.name.name else self.name.name.axial
 
 
@@ -73,6 +84,8 @@ class MeasuredModes:
         By number in `modes`.
     remarks : tuple of str
         Of reading, estimation, extraction and naming.
+    sensor : SensorTrend or None
+        What the roving sensor's mass did to the poles; None where they do not move with it.
     """
 
     frf_sets: tuple[FrfSet, ...]
@@ -80,6 +93,16 @@ class MeasuredModes:
     modes: tuple[NamedMode, ...]
     doublets: tuple[DoubletPair, ...]
     remarks: tuple[str, ...]
+    sensor: SensorTrend | None = None
+
+    @property
+    def bare_hz(self) -> tuple[float, ...]:
+        """Frequencies of the modes, without the sensor's mass where it is known."""
+        frequencies = [one.mode.frequency_hz for one in self.modes]
+        if self.sensor is not None:
+            for number, frequency in zip(self.sensor.modes, self.sensor.bare_hz, strict=True):
+                frequencies[number] = float(frequency)
+        return tuple(frequencies)
 
 
 def measured_modes(
@@ -114,8 +137,41 @@ def measured_modes(
     extraction = extract(frf_sets, band_hz)
     modes, remarks = _named(extraction)
     modes = _with_hints(modes, extraction, frf_sets[0])
-    said += [*extraction.remarks, *remarks, *_non_linear(modes)]
-    return MeasuredModes(frf_sets, extraction, modes, _doublets(modes), tuple(dict.fromkeys(said)))
+    modes, sensor = _with_sensor(modes, extraction)
+    said += [*extraction.remarks, *remarks, *_moving(modes, sensor), *_non_linear(modes)]
+    return MeasuredModes(frf_sets, extraction, modes, _doublets(modes), tuple(dict.fromkeys(said)), sensor)
+
+
+def _with_sensor(
+    modes: Sequence[NamedMode], extraction: Extraction
+) -> tuple[tuple[NamedMode, ...], SensorTrend | None]:
+    """Names of turned doublets' other halves, and the sensor's mass where it is beyond doubt."""
+    if extraction.hammer_roved:
+        return tuple(modes), None
+    names = {i: (one.order, one.axial) for i, one in enumerate(modes) if one.order is not None}
+    partners = turned_partners(extraction.modes, names)
+    named = tuple(
+        replace(one, doublet=partners[i], features=None) if i in partners else one
+        for i, one in enumerate(modes)
+    )
+    whole = {i: (order, axial) for i, (order, axial) in names.items() if axial is not None}
+    trend = sensor_trend(extraction.modes, whole, extraction.points, extraction.references[0])
+    return named, trend if trend is not None and trend.significant else None
+
+
+def _moving(modes: Sequence[NamedMode], sensor: SensorTrend | None) -> list[str]:
+    """Poles that move, and why."""
+    if sensor is not None:
+        return [sensor.statement]
+    spans = [(float(np.ptp(one.mode.shift.real)), one.mode) for one in modes if one.mode.shift is not None]
+    if not spans:
+        return []
+    span, mode = max(spans, key=lambda pair: pair[0])
+    what = "point" if mode.shift is not None and len(mode.shift) > 1 else "reference"
+    return [
+        f"the poles of {len(spans)} modes move from {what} to {what}, by up to {100 * span:.2g} % at "
+        f"{mode.frequency_hz:.2f} Hz: the structure, its supports or what was attached to it changed during the test"
+    ]
 
 
 def _named(extraction: Extraction) -> tuple[tuple[NamedMode, ...], list[str]]:

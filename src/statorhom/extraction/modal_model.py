@@ -39,6 +39,8 @@ class Window:
         (rad/s)² of one unit of `squared`.
     terms : int
         Residual terms of each reference: 1/ω², 1, ω² (in this order of need).
+    quiet : bool
+        Whether the noise is so low that not it but the linear model limits what is explained.
     """
 
     squared: FloatArray
@@ -46,6 +48,7 @@ class Window:
     weights: FloatArray
     unit: float
     terms: int = 3
+    quiet: bool = False
 
     @property
     def bin(self) -> int:

@@ -18,22 +18,29 @@ FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
 _MOST_NEW = 5  # modes per window and sweep
+_BESIDE = 2.0  # half-power bandwidths within which a doublet's other mode may lie that no stable pole shows
 _HOPELESS = 0.3  # of the price: a candidate that promises less before its pole is optimized is left
 _OUTSIDE = 0.5  # of a window's width that a pole may lie beyond it
 _CANDIDATES = 2
 _TRIAL_ITERATIONS = 12  # the sweeps refine what is kept
 _SAME_SHAPE = 0.95  # MAC
 _FLANK = 10.0  # bandwidths over which a mode's own curve may be inexact …
-_LEAST_BESIDE = 0.1  # … by this part
+_LEAST__BESIDE = 0.1  # … by this part
+_MODEL_MISFIT = (
+    1.5  # from which on the model, not the noise, limits what is explained; then a mode must make up …
+)
+_LEAST_PRESENCE = 0.2  # … this part of the receptance at its frequency, in half of the FRFs
 
 
 def drop_doubtful(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
-    """Remove, the weakest first, poles that the window cannot show and those that only correct others."""
+    """Remove, the weakest first, poles that the window cannot show and those that only correct the model."""
     while True:
         doubtful = [
             m
             for m in range(len(fit.modes))
-            if not plausible(window, fit.modes.poles[m]) or repeats(fit, neighbours, m)
+            if not plausible(window, fit.modes.poles[m])
+            or repeats(fit, neighbours, m)
+            or not present(window, fit, m)
         ]
         if not doubtful:
             return fit
@@ -121,13 +128,14 @@ def _with_candidate(
         beyond = not window.squared[0] < larger.modes.poles[-1].real < window.squared[-1]
         seen = beyond or _near(larger.modes.poles[-1], np.concatenate([known, stable]))
         physical = seen and all(plausible(window, pole) for pole in larger.modes.poles)
+        physical = physical and present(window, larger, len(larger.modes) - 1)
         if physical and not any(repeats(larger, neighbours, m) for m in range(len(larger.modes))):
             return larger
     return None
 
 
 def _near(pole: complex, others: ComplexArray) -> bool:
-    return bool(np.any(np.abs(others.real - pole.real) < np.maximum(others.imag, pole.imag)))
+    return bool(np.any(np.abs(others.real - pole.real) < _BESIDE * np.maximum(others.imag, pole.imag)))
 
 
 def repeats(fit: WindowFit, neighbours: Modes, index: int) -> bool:
@@ -148,9 +156,27 @@ def repeats(fit: WindowFit, neighbours: Modes, index: int) -> bool:
     distance = np.abs(poles.real - poles[index].real)
     curve = size / np.abs(poles - poles[index].real)
     overlap = distance < np.maximum(poles.imag, poles[index].imag)
-    beside = (distance < _FLANK * poles.imag) & (strength[index] < _LEAST_BESIDE * curve)
+    beside = (distance < _FLANK * poles.imag) & (strength[index] < _LEAST__BESIDE * curve)
     stronger = strength > strength[index]
     return bool(np.any((mac > _SAME_SHAPE) & stronger & (overlap | beside)))
+
+
+def present(window: Window, fit: WindowFit, index: int) -> bool:
+    """Whether a mode makes up enough of the receptances at its own frequency.
+
+    Asked only where noise does not explain the misfit: there a pole may stand for anything that the model lacks.
+    """
+    pole = fit.modes.poles[index]
+    inside = window.squared[0] < pole.real < window.squared[-1]
+    if not inside or not (window.quiet or misfit(window, fit) > _MODEL_MISFIT):
+        return True
+    line = int(np.searchsorted(window.squared, pole.real)) // window.bin
+    line = min(line, window.values.shape[-1] - 1)
+    shape = (fit.linear.coefficients / fit.linear.norms)[:, index]
+    part = np.abs(shape[:, None] * fit.modes.parts[index]) / pole.imag
+    measured = window.weights[..., line] > 0
+    share = part[measured] / np.maximum(np.abs(window.values[..., line])[measured], np.finfo(float).tiny)
+    return not share.size or bool(np.median(share) > _LEAST_PRESENCE)
 
 
 def plausible(window: Window, pole: complex) -> bool:

@@ -13,7 +13,7 @@ from statorhom.modes.nonlinearity.combined import combined_probability
 from statorhom.modes.nonlinearity.flank_asymmetry import flank_asymmetry
 from statorhom.recordings.frf_set import FrfSet
 
-STRONGEST = 12  # FRFs of a mode that are looked at: the others add noise, not evidence
+STRONGEST = 6  # FRFs of a mode that are looked at: the others add noise, not evidence
 RARE = 1e-3  # probability below which a hint is worth a remark: a test has dozens of modes and two hints each
 
 BROAD = 0.04  # loss factor from which on the lines of a peak reach far into other modes' …

@@ -16,6 +16,7 @@ from statorhom.extraction.clusters import cluster_lines, clusters, nearest, tile
 from statorhom.extraction.modal_model import Modes, Window, steady_modes
 from statorhom.extraction.mode_count import drop_doubtful, grow, prune
 from statorhom.extraction.moving_modes import moving_set_ups, refitted, with_moving_modes
+from statorhom.extraction.noise import LEAST_MODEL_ERROR
 from statorhom.extraction.point_grid import PointGrid
 from statorhom.extraction.set_up_shifts import SetUps
 from statorhom.extraction.window_fit import WindowFit
@@ -26,6 +27,7 @@ ComplexArray = npt.NDArray[np.complex128]
 _SWEEPS = 3
 _BINS_PER_BANDWIDTH = 8
 _ENOUGH_BINS = 250
+_QUIET = 1.001  # of the least error of a model
 _REACH = 0.3  # of a window's width
 _SEEN = 0.1  # bandwidths
 _SETTLED = 0.01  # bandwidths that a pole may still move
@@ -74,7 +76,13 @@ class ModeSearch:
         shape = (*self.grid.receptance.shape[:2], -1, size)
         values = self.grid.receptance[..., lines][..., :count].reshape(shape).mean(axis=-1)
         variance = self.variance[..., lines][..., :count].reshape(shape).mean(axis=-1) / size
-        return Window(squared[:count], values, 1.0 / variance, self.unit)
+        return Window(squared[:count], values, 1.0 / variance, self.unit, quiet=self._quiet(lines))
+
+    def _quiet(self, lines: slice) -> bool:
+        """Whether most of the data are less noisy than a linear model is exact."""
+        variance = self.variance[..., lines]
+        least = (_QUIET * LEAST_MODEL_ERROR) ** 2 * np.abs(self.grid.receptance[..., lines]) ** 2
+        return bool(np.median((variance <= least)[np.isfinite(variance)]) > 0.5)
 
     def _bin(self, squared: FloatArray) -> int:
         """Lines of a bin: a small part of the narrowest bandwidth inside, and no more than a long window needs."""

@@ -22,6 +22,8 @@ ComplexArray = npt.NDArray[np.complex128]
 _EXPLAINED = 1.5  # misfit of a window that needs nothing further
 _STEADY = 0.5  # of the price of shifts: what a window may promise whose modes stay
 _MAJORITY = 2.0  # windows with moving modes for every one whose modes stay
+_IMAGES_COUNT = 3  # windows that one with images counts for
+_APART = 0.3  # common part of the amplitudes of two images
 _OVERLAP = 3.0  # bandwidths within which images of one moving mode lie
 _MOST_BESIDE = 3  # modes that stay beside those that move
 
@@ -31,23 +33,36 @@ FittedWindows = Sequence[tuple[Window, WindowFit, Modes]]  # with the neighbours
 def moving_set_ups(windows: FittedWindows) -> SetUps | None:
     """What the poles move with, if they move in most windows; None for a test whose poles stay.
 
-    One doublet that is barely split looks like a mode that moves. Set-ups that differ move all modes.
+    One doublet that is barely split looks like a mode that moves. Set-ups that differ move most modes.
     """
     best, most = None, 0
+    fitted = [one for one in windows if len(one[1].modes)]
     for set_ups in SetUps:
-        gains = [
-            _promise(*one, set_ups) for one in windows if set_ups.count(one[0]) > 1 and len(one[1].modes)
-        ]
-        moving = sum(gain > 1.0 for gain, _ in gains)
-        steady = sum(gain < _STEADY and left < _EXPLAINED for gain, left in gains)
+        seen = [one for one in fitted if set_ups.count(one[0]) > 1]
+        gains = [float(np.max(_promises(*one, set_ups))) for one in seen]
+        images = [set_ups is SetUps.POINTS and _has_images(fit) for _, fit, _ in seen]
+        steady = sum(
+            gain < _STEADY and misfit(window, fit) < _EXPLAINED and not image
+            for gain, image, (window, fit, _) in zip(gains, images, seen, strict=True)
+        )
+        moving = sum(
+            max(gain > 1.0, _IMAGES_COUNT * image) for gain, image in zip(gains, images, strict=True)
+        )
         if moving > _MAJORITY * steady and moving > most:
             best, most = set_ups, moving
     return best
 
 
-def _promise(window: Window, fit: WindowFit, neighbours: Modes, set_ups: SetUps) -> tuple[float, float]:
-    """Gain of shifts over their price, and the misfit without them."""
-    return float(np.max(_promises(window, fit, neighbours, set_ups))), misfit(window, fit)
+def _has_images(fit: WindowFit) -> bool:
+    """Whether two poles that overlap show at different points: one mode in two places, exactly explained."""
+    poles, count = fit.modes.poles, len(fit.modes)
+    size = np.abs((fit.linear.coefficients / fit.linear.norms)[:, :count])
+    unit = size / np.maximum(np.linalg.norm(size, axis=0), np.finfo(float).tiny)
+    apart = unit.T @ unit < _APART
+    near = np.abs(poles.real[:, None] - poles.real[None]) < _OVERLAP * np.minimum(
+        poles.imag[:, None], poles.imag
+    )
+    return bool(np.any(apart & near))
 
 
 def _promises(window: Window, fit: WindowFit, neighbours: Modes, set_ups: SetUps) -> FloatArray:

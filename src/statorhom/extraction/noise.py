@@ -19,7 +19,9 @@ _HALF_STENCIL = 3
 _DEGREE = 2
 _BLOCK = 60  # lines of one median
 _FLOOR_QUANTILE = 0.02
-_LEAST_MODEL_ERROR = 0.003  # of the magnitude: linearity of structure and sensors
+LEAST_MODEL_ERROR = 0.002
+"""Part of the magnitude that no linear model explains: structures and sensors are not linear beyond it."""
+
 _LEAST_RELATIVE = 1e-9  # keeps weights finite for data without noise
 
 
@@ -40,7 +42,7 @@ def noise_sd(grid: PointGrid) -> FloatArray:
 
 def expected_sd(grid: PointGrid, noise: FloatArray) -> FloatArray:
     """Standard deviation of what a modal model may miss: noise, or what no real structure and sensor keep to."""
-    sd: FloatArray = np.maximum(noise, _LEAST_MODEL_ERROR * np.abs(grid.receptance))
+    sd: FloatArray = np.maximum(noise, LEAST_MODEL_ERROR * np.abs(grid.receptance))
     return sd
 
 

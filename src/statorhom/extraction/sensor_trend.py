@@ -22,6 +22,7 @@ FloatArray = npt.NDArray[np.float64]
 SURE = 1e-3  # probability of chance below which a mass is reported
 _SEEN = 0.2  # part of its largest amplitude that a mode must have at a point
 _FEWEST_POINTS = 6
+_CI90 = 3.29  # standard deviations that a 90 % interval spans
 
 
 @dataclass(frozen=True)
@@ -34,6 +35,10 @@ class SensorTrend:
         Numbers of the modes that the trend rests on.
     shifts : PoleShiftTrend
         Set-ups are the points of the shapes.
+    relative_sd : array, shape (points, modes)
+        Standard deviation of the relative shifts.
+    amplitude_squared : array, shape (points, modes)
+        Squared mass-normalised amplitude (1/kg).
     bare_hz, bare_sd_hz : arrays, shape (modes,)
         Frequencies extrapolated to a sensor without mass. Motion that was not measured (tangential, axial)
         carries the mass as well and is missing in them.
@@ -41,6 +46,8 @@ class SensorTrend:
 
     modes: tuple[int, ...]
     shifts: PoleShiftTrend
+    relative_sd: FloatArray
+    amplitude_squared: FloatArray
     bare_hz: FloatArray
     bare_sd_hz: FloatArray
 
@@ -54,9 +61,14 @@ class SensorTrend:
         """The trend in one line."""
         joint = self.shifts.joint
         low, high = (1000 * one for one in joint.ci90_kg)
-        said = f"the poles move with the sensor as a mass of {1000 * joint.mass_kg:.3g} g ({low:.3g} … {high:.3g} g) "
-        frequencies = ", ".join(f"{one:.2f}" for one in self.bare_hz)
-        return f"{said}moves them; without it the modes {', '.join(str(1 + m) for m in self.modes)} lie at {frequencies} Hz"
+        modes = ", ".join(
+            f"{1 + number}: {frequency:.2f} Hz"
+            for number, frequency in zip(self.modes, self.bare_hz, strict=True)
+        )
+        return (
+            f"the poles move from point to point as a sensor of {1000 * joint.mass_kg:.3g} g "
+            f"({low:.3g} … {high:.3g} g) moves them; without its radial inertia modes lie at {modes}"
+        )
 
 
 def sensor_trend(
@@ -87,11 +99,10 @@ def sensor_trend(
         shifts = pole_shift_trend(frequency, sd, amplitude)
     except IdentificationError:
         return None
-    square = np.mean(np.sum(amplitude**2, axis=2), axis=0)
+    square = np.sum(amplitude**2, axis=2)
     low, high = shifts.joint.ci90_kg
-    return SensorTrend(
-        tuple(chosen), shifts, shifts.bare_hz, shifts.bare_hz * square * (high - low) / 2 / 3.29
-    )
+    bare_sd = shifts.bare_hz * square.mean(axis=0) * (high - low) / _CI90 / 2
+    return SensorTrend(tuple(chosen), shifts, sd / frequency, square, shifts.bare_hz, bare_sd)
 
 
 def _frequencies(mode: ExtractedMode) -> tuple[FloatArray, FloatArray]:
@@ -119,7 +130,7 @@ def _wave(
     theta = np.array([point.angle for point in points], dtype=float)
     z = np.array([place[2] for place in places if place is not None])
     middle, span = float(z.mean()), max(float(np.ptp(z)), np.finfo(float).tiny)
-    degree = min(axial + 1, len(np.unique(z.round(6))) - 1)
+    degree = min(axial + 2, len(np.unique(z.round(6))) - 1)
     along = np.vander((z - middle) / span, degree + 1)
     columns = np.concatenate(
         [along * np.cos(order * theta)[:, None], along * np.sin(order * theta)[:, None]], axis=1

@@ -47,10 +47,9 @@ def shift_gains(window: Window, fit: WindowFit, neighbours: Modes, set_ups: SetU
     _, score, inner = _terms(window, fit.modes, neighbours, np.arange(len(fit.modes)), set_ups)
     diagonal = np.einsum("gaa->ga", inner)
     gain = np.divide(score.real**2, diagonal, out=np.zeros_like(diagonal), where=diagonal > 0)
-    summed: FloatArray = gain.reshape(
-        -1, len(fit.modes), score.size // max(1, len(gain) * len(fit.modes))
-    ).sum(axis=(0, 2))
-    return summed
+    # points are groups with one shift per mode; references make one group with a shift per mode and reference
+    of_modes = gain if set_ups is SetUps.POINTS else gain.reshape(len(fit.modes), -1).T
+    return np.asarray(of_modes.sum(axis=0))
 
 
 def fit_shifted(

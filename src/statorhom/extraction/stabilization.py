@@ -19,6 +19,7 @@ _MOST_ROOTS = 40  # order times references
 _STABLE = 0.3  # distance to a pole of the next lower order, in half-power bandwidths
 _SAME = 0.5  # distance of one pole's images over the orders
 _LEAST_IMAGES = 3
+_NEAR = 2.0
 LEAST_SHARE = 0.25
 """Share of the orders that must show a mode."""
 
@@ -41,10 +42,13 @@ class Stabilization:
     stable: npt.NDArray[np.bool_]
 
     def share(self, squared: complex) -> float:
-        """Share of the orders that have a stable pole within the half-power bandwidth of ω²(1 + iη), 0 … 1."""
+        """Share of the orders that have a stable pole near ω²(1 + iη), 0 … 1.
+
+        Near means two half-power bandwidths: closer modes may show as one.
+        """
         frequency = np.sqrt(squared.real) / (2 * np.pi)
         width = frequency * squared.imag / squared.real
-        near = self.stable & (np.abs(self.frequency_hz - frequency) < width)
+        near = self.stable & (np.abs(self.frequency_hz - frequency) < _NEAR * width)
         orders = len(np.unique(self.order))
         return len(np.unique(self.order[near])) / orders if orders else 0.0
 

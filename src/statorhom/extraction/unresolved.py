@@ -16,6 +16,7 @@ from statorhom.extraction.pole_price import dispersion
 from statorhom.extraction.window_fit import WindowFit, fit_window
 
 _APART = 2.0  # standard deviations of the split
+_PARALLEL = 0.95  # MAC
 
 
 def without_unresolved(one: FittedWindow) -> tuple[FittedWindow, tuple[complex, ...]]:
@@ -36,12 +37,20 @@ def _unresolved(one: FittedWindow) -> tuple[int, int] | None:
     if count < 2 or fit.modes.moving.any():
         return None
     split = np.abs(fit.modes.poles[:, None] - fit.modes.poles[None])
-    ratio = np.where(np.eye(count, dtype=bool), np.inf, split / _split_sd(one))
+    parallel = _likeness(fit.modes.parts) > _PARALLEL
+    ratio = np.where(parallel & ~np.eye(count, dtype=bool), split / _split_sd(one), np.inf)
     a, b = np.unravel_index(np.argmin(ratio), ratio.shape)
     if ratio[a, b] > _APART:
         return None
     size = _size(fit)
     return (int(a), int(b)) if size[a] >= size[b] else (int(b), int(a))
+
+
+def _likeness(parts: npt.NDArray[np.complex128]) -> npt.NDArray[np.float64]:
+    """MAC between the participations of all modes: several references tell modes of one frequency apart by them."""
+    unit = parts / np.linalg.norm(parts, axis=1, keepdims=True)
+    likeness: npt.NDArray[np.float64] = np.abs(unit.conj() @ unit.T) ** 2
+    return likeness
 
 
 def _split_sd(one: FittedWindow) -> npt.NDArray[np.float64]:

@@ -16,6 +16,7 @@ from statorhom.identify.measured_mac import with_mac
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.priors import Carried
 from statorhom.identify.settings import Settings
+from statorhom.identify.stage_remarks import recording_remarks
 from statorhom.identify.stage_result import mass_only, stage_result
 from statorhom.identify.stage_run import run_stage
 from statorhom.identify.stage_setup import StageSetup, analytic_values, check_fit, stage_setup
@@ -133,7 +134,13 @@ class Chain:
             result = mass_only(setup, state.mass_kg, state.regions)
         else:
             result = self._fitted(setup, state, workers, announce)
-        return result.model_copy(update={"digest": digest, "seconds": round(time.perf_counter() - began, 1)})
+        return result.model_copy(
+            update={
+                "digest": digest,
+                "seconds": round(time.perf_counter() - began, 1),
+                "warnings": (*result.warnings, *recording_remarks(self.files, setup.keys)),
+            }
+        )
 
     def _fitted(
         self, setup: StageSetup, state: ChainState, workers: Workers, announce: Announce

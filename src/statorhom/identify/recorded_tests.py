@@ -29,7 +29,7 @@ from statorhom.study.modal_table import ModalTable, read_modal_table
 from statorhom.study.modal_tests import ModalTestKeys
 from statorhom.study.study import StudyFiles
 
-FORMAT = 1  # of what is kept: a change of method makes it stale
+FORMAT = 2  # of what is kept: a change of method makes it stale
 FOLDER = "recordings"
 _DAMAGED = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, InputFileError)
 
@@ -87,7 +87,7 @@ def _recorded(files: StudyFiles, test: ModalTestKeys, folder: Path) -> tuple[Mod
     table, shapes = folder / f"{test.name}.csv", folder / f"{test.name}.npz"
     digest = _digest(test, paths)
     try:
-        return read_modal_table(table), _read_shapes(shapes, digest)
+        return _kept(table, shapes, digest)
     except _DAMAGED:
         pass  # not there, stale or damaged: all the same
     with threadpool_limits(limits=1, user_api="blas"):
@@ -99,7 +99,12 @@ def _recorded(files: StudyFiles, test: ModalTestKeys, folder: Path) -> tuple[Mod
         )
     write_text(table, table_text(modal_table(measured, table), measured.remarks))
     write_bytes(shapes, _shape_bytes(measured, digest))
-    return read_modal_table(table), _read_shapes(shapes, digest)
+    return _kept(table, shapes, digest)
+
+
+def _kept(table: Path, shapes: Path, digest: str) -> tuple[ModalTable, Shapes]:
+    known, remarks = _read_shapes(shapes, digest)
+    return replace(read_modal_table(table), remarks=remarks), known
 
 
 def _digest(test: ModalTestKeys, paths: list[Path]) -> str:
@@ -112,7 +117,10 @@ def _digest(test: ModalTestKeys, paths: list[Path]) -> str:
 
 def _shape_bytes(measured: MeasuredModes, digest: str) -> bytes:
     shapes = [one.shape for one in measured.modes if one.shape is not None]
-    content: dict[str, np.ndarray] = {"digest": np.array(digest)}
+    content: dict[str, np.ndarray] = {
+        "digest": np.array(digest),
+        "remarks": np.array(measured.remarks, dtype=str),
+    }
     if len(shapes) == len(measured.modes):
         first = shapes[0]
         content |= {"radius": np.array(first.radius_m), "z": first.z_m, "angles": first.angles_rad}
@@ -123,17 +131,19 @@ def _shape_bytes(measured: MeasuredModes, digest: str) -> bytes:
     return buffer.getvalue()
 
 
-def _read_shapes(path: Path, digest: str) -> Shapes:
+def _read_shapes(path: Path, digest: str) -> tuple[Shapes, tuple[str, ...]]:
     with np.load(path, allow_pickle=False) as content:
         if str(content["digest"]) != digest:
             raise ValueError("of other recordings")
+        remarks = tuple(str(remark) for remark in content["remarks"])
         if "motion" not in content:
-            return ()
+            return (), remarks
         place = float(content["radius"]), content["z"], content["angles"]
-        return tuple(
+        shapes = tuple(
             MeasuredShape(*place, motion, sd)
             for motion, sd in zip(content["motion"], content["sd"], strict=True)
         )
+        return shapes, remarks
 
 
 def _check_held_out(files: StudyFiles, test: ModalTestKeys, table: ModalTable) -> None:

@@ -10,6 +10,8 @@ from statorhom.identify.model_error import DEFAULT_RELATIVE_SD
 from statorhom.identify.stage_materials import DENSITY
 from statorhom.identify.stage_run import StageRun
 from statorhom.results.schema import ModeResult
+from statorhom.study.stages import StageKeys
+from statorhom.study.study import StudyFiles
 
 LIKELY = 0.05  # an optimum of this probability is worth a warning
 UNEXPLAINED_PERCENT = 0.5  # of the frequencies: what manufacturing scatter alone does not leave
@@ -64,6 +66,12 @@ def warnings(run: StageRun, modes: Sequence[ModeResult]) -> list[str]:
             f"stage {run.setup.keys.name!r}: the last descent did not settle; raise identify.evaluations"
         )
     return found
+
+
+def recording_remarks(files: StudyFiles, stage: StageKeys) -> list[str]:
+    """What the recordings of a stage's tests said of themselves: overloads, double hits, doubtful modes."""
+    tables = {test.name: files.tables[test.name] for test in stage.tests if test.name in files.tables}
+    return [f"test {name!r}: {remark}" for name, table in tables.items() for remark in table.remarks]
 
 
 def _rivals(run: StageRun) -> list[str]:

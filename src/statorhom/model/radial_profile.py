@@ -11,6 +11,7 @@ from statorhom.model.harmonic import Harmonic
 from statorhom.model.surface import SurfacePoints, surface_points
 
 PLANES = 9  # enough for six node planes
+_NODE = 0.1  # of the largest amplitude
 ANGLES_PER_PITCH = 6  # orders up to 2 N beside the harmonic's own are kept apart
 
 
@@ -49,11 +50,19 @@ def radial_profile(mesh: HalfPitchMesh) -> RadialProfile:
     return RadialProfile(planes, points, angles)
 
 
-def node_planes(profile: np.ndarray) -> np.ndarray:
-    """Number of sign changes down each column of (p, k) amplitudes; planes near a node have no sign."""
-    size = np.abs(profile)
-    seen = size > 0.1 * size.max(axis=0)
+def node_planes(profile: np.ndarray, least: float = 0.0) -> np.ndarray:
+    """Number of sign changes down each column of (p, k) amplitudes; planes near a node have no sign.
+
+    Near means below a tenth of the column's largest amplitude, or below `least`.
+    """
+    seen = seen_planes(profile, least)
     # the sign at every plane of the last one above it that has any
     last = np.maximum.accumulate(np.where(seen, np.arange(len(profile))[:, None], -1), axis=0)
     signs = np.where(last < 0, 0.0, np.sign(np.take_along_axis(profile, np.maximum(last, 0), axis=0)))
     return np.asarray((signs[1:] * signs[:-1] < 0).sum(axis=0))
+
+
+def seen_planes(profile: np.ndarray, least: float = 0.0) -> np.ndarray:
+    """Which planes carry a sign, (p, k)."""
+    size = np.abs(profile)
+    return np.asarray(size > np.maximum(_NODE * size.max(axis=0), least))

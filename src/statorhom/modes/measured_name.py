@@ -10,7 +10,7 @@ import numpy.typing as npt
 from statorhom.errors import IdentificationError
 from statorhom.modes.amplitude_noise import amplitude_sd
 from statorhom.modes.measured_shape import MeasuredShape
-from statorhom.modes.naming import ModeName, name_shape, node_planes, order_noise
+from statorhom.modes.naming import ModeName, measured_node_planes, name_shape, order_noise
 from statorhom.modes.order_spectrum import OrderSpectrum, order_spectrum
 
 FloatArray = npt.NDArray[np.float64]
@@ -106,5 +106,7 @@ def _confidence(shape: MeasuredShape, spectrum: OrderSpectrum, name: ModeName) -
     common = along[used] @ amplitudes[used, order]
     signed = (copies[:, used, order] @ common.conj()).real
     noise_level = order_noise(spectrum, order) * float(np.linalg.norm(common))
-    same_axial = [node_planes(one, shape.z_m[used], noise=noise_level) == name.axial for one in signed]
+    same_axial = [
+        measured_node_planes(one, shape.z_m[used], noise=noise_level) == name.axial for one in signed
+    ]
     return float(np.mean(same_order & np.array(same_axial)))

@@ -9,12 +9,12 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.errors import IdentificationError
+from statorhom.model.radial_profile import node_planes, seen_planes
 from statorhom.modes.order_spectrum import OrderSpectrum, order_spectrum
 
 SIGNIFICANT_RADIAL_SHARE = 0.02
 """Below this share of radial motion a mode is named by its kind (about 14 % of the amplitude)."""
 
-_NODE_THRESHOLD = 0.1  # of the largest plane's amplitude: a plane this close to a node has no sign
 _NOISE_FACTOR = 3.0
 _LEAST_NOISE_ORDERS = 4  # a median of fewer orders may well be real motion
 
@@ -116,7 +116,7 @@ def _radial_name(spectrum: OrderSpectrum, z_m: npt.NDArray[np.float64], visibili
     used = np.isfinite(amplitudes)
     return ModeName(
         order,
-        node_planes(amplitudes[used], z_m[used], noise=order_noise(spectrum, order)),
+        measured_node_planes(amplitudes[used], z_m[used], noise=order_noise(spectrum, order)),
         "radial",
         share,
         visibility,
@@ -125,7 +125,7 @@ def _radial_name(spectrum: OrderSpectrum, z_m: npt.NDArray[np.float64], visibili
     )
 
 
-def node_planes(amplitudes: npt.ArrayLike, z_m: npt.ArrayLike, *, noise: float = 0.0) -> int | None:
+def measured_node_planes(amplitudes: npt.ArrayLike, z_m: npt.ArrayLike, *, noise: float = 0.0) -> int | None:
     """Sign changes of an order's amplitude along the axis.
 
     Planes below a tenth of the largest amplitude, or below three times the noise, lie near a node and
@@ -143,12 +143,9 @@ def node_planes(amplitudes: npt.ArrayLike, z_m: npt.ArrayLike, *, noise: float =
     int or None
         None where fewer than two planes carry a sign: the node planes cannot be told.
     """
-    along = np.asarray(amplitudes, dtype=float)[np.argsort(z_m, kind="stable")]
-    threshold = max(_NODE_THRESHOLD * float(np.abs(along).max()), _NOISE_FACTOR * noise)
-    signs = np.sign(along[np.abs(along) > threshold])
-    if signs.size < 2:
-        return None
-    return int(np.count_nonzero(signs[1:] != signs[:-1]))
+    along = np.asarray(amplitudes, dtype=float)[np.argsort(z_m, kind="stable"), None]
+    least = _NOISE_FACTOR * noise
+    return int(node_planes(along, least)[0]) if seen_planes(along, least).sum() >= 2 else None
 
 
 def order_noise(spectrum: OrderSpectrum, order: int) -> float:

@@ -72,10 +72,13 @@ class ModalTable:
         Where they were read from.
     modes : tuple of MeasuredMode
         In the order of the file; at least one.
+    remarks : tuple of str
+        What a reader must know of the recordings that the table comes from.
     """
 
     path: Path
     modes: tuple[MeasuredMode, ...]
+    remarks: tuple[str, ...] = ()
 
 
 def read_modal_table(path: Path) -> ModalTable:

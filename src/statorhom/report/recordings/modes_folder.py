@@ -16,6 +16,7 @@ from statorhom.report.figures.canvas import png
 from statorhom.report.figures.measured_spectrum import measured_spectrum_plot
 from statorhom.report.figures.shape_animation import animate_shape
 from statorhom.report.recordings.frf_plots import frf_plots, indicator, nyquist_plots, stabilization
+from statorhom.report.recordings.shift_plots import shift_plots
 from statorhom.results.files import check_folder
 from statorhom.study.atomic import write_bytes, write_text
 
@@ -60,7 +61,8 @@ def write_modes(measured: MeasuredModes, folder: Path, progress: Progress | None
 def picture_count(measured: MeasuredModes) -> int:
     """How many pictures `write_modes` draws at most."""
     shown = sum(one.shape is not None for one in measured.modes)
-    return len(measured.extraction.references) + 2 + len(measured.modes) + 2 * shown
+    moved = 0 if measured.sensor is None else len(measured.sensor.modes)
+    return len(measured.extraction.references) + 2 + len(measured.modes) + 2 * shown + moved
 
 
 def mode_title(one: NamedMode) -> str:
@@ -79,6 +81,8 @@ def _pictures(measured: MeasuredModes) -> Iterator[tuple[str, bytes]]:
     yield "stabilization.png", png(stabilization(measured), DPI)
     yield "cmif.png", png(indicator(measured), DPI)
     for name, figure in nyquist_plots(measured):
+        yield name, png(figure, DPI)
+    for name, figure in shift_plots(measured):
         yield name, png(figure, DPI)
     for number, one in enumerate(measured.modes, start=1):
         if one.shape is None or one.name is None or one.name.spectrum is None:

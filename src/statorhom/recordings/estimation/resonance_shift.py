@@ -23,7 +23,7 @@ _FEWEST_LINES = 5
 
 
 @dataclass(frozen=True)
-class LevelTrend:
+class ResonanceShift:
     """Change of a resonance with the force's level.
 
     Attributes
@@ -43,9 +43,9 @@ class LevelTrend:
     slope_sd: float
 
 
-def level_trend(
+def resonance_shift(
     frf_sets: Sequence[FrfSet], force_levels_n: Sequence[float], near_hz: float, width_hz: float
-) -> LevelTrend:
+) -> ResonanceShift:
     """Trend of one resonance over FRFs that were measured at several force levels.
 
     Parameters
@@ -77,7 +77,7 @@ def level_trend(
     weight = decades / np.sum(decades**2)
     relative = shifts / near_hz
     slope = complex(weight @ relative)
-    return LevelTrend(
+    return ResonanceShift(
         frequency_shift=relative.real,
         damping_shift=relative.imag,
         frequency_slope=slope.real,

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from statorhom.errors import RecordingError
 from statorhom.recordings.dof import Dof
-from statorhom.recordings.estimation.level_trend import level_trend
+from statorhom.recordings.estimation.resonance_shift import resonance_shift
 from statorhom.recordings.frf_set import FrfSet
 
 LINES = np.arange(1300.0, 1560.0, 0.5)
@@ -39,13 +39,13 @@ def series(of_frequency: float, of_damping: float, noise: float = 0.0, seed: int
 
 @given(of_frequency=st.floats(-5e-4, 5e-4), of_damping=st.floats(0.0, 5e-4))
 def test_slopes_of_frequency_and_damping_are_recovered(of_frequency: float, of_damping: float) -> None:
-    trend = level_trend(series(of_frequency, of_damping), LEVELS, NATURAL, 40.0)
+    trend = resonance_shift(series(of_frequency, of_damping), LEVELS, NATURAL, 40.0)
     assert trend.frequency_slope == pytest.approx(of_frequency, rel=0.1, abs=3e-5)
     assert trend.damping_slope == pytest.approx(of_damping, rel=0.1, abs=3e-5)
 
 
 def test_a_linear_structure_has_no_trend_beyond_its_sd() -> None:
-    trends = [level_trend(series(0.0, 0.0, 0.01, 10 * seed), LEVELS, NATURAL, 40.0) for seed in range(60)]
+    trends = [resonance_shift(series(0.0, 0.0, 0.01, 10 * seed), LEVELS, NATURAL, 40.0) for seed in range(60)]
     normalized = np.array([[t.frequency_slope / t.slope_sd, t.damping_slope / t.slope_sd] for t in trends])
     assert np.abs(normalized.mean()) < 0.3
     assert normalized.std() == pytest.approx(1.0, rel=0.25)
@@ -53,8 +53,8 @@ def test_a_linear_structure_has_no_trend_beyond_its_sd() -> None:
 
 def test_a_trend_is_seen_through_noise_whatever_the_order_of_levels() -> None:
     sets = series(-5e-4, 3e-4, 0.01)
-    up = level_trend(sets, LEVELS, NATURAL, 40.0)
-    down = level_trend(sets[::-1], LEVELS[::-1], NATURAL, 40.0)
+    up = resonance_shift(sets, LEVELS, NATURAL, 40.0)
+    down = resonance_shift(sets[::-1], LEVELS[::-1], NATURAL, 40.0)
     assert up.frequency_slope < -5 * up.slope_sd
     assert up.damping_slope > 5 * up.slope_sd
     assert down.frequency_slope == pytest.approx(up.frequency_slope)
@@ -71,8 +71,8 @@ def test_series_that_do_not_match_are_refused() -> None:
         (sets, [-5.0, 1.0, 2.0]),
     ):
         with pytest.raises(RecordingError, match="level series needs"):
-            level_trend(wrong, levels, NATURAL, 40.0)
+            resonance_shift(wrong, levels, NATURAL, 40.0)
     with pytest.raises(RecordingError, match=r"b\.uff: the levels"):
-        level_trend([sets[0], other], [1.0, 2.0], NATURAL, 40.0)
+        resonance_shift([sets[0], other], [1.0, 2.0], NATURAL, 40.0)
     with pytest.raises(RecordingError, match="lines lie within"):
-        level_trend(sets, LEVELS, 99.0, 40.0)
+        resonance_shift(sets, LEVELS, 99.0, 40.0)

@@ -1,0 +1,95 @@
+"""Derivatives of a hypothesis's residuals: constants by analytic slopes of the frequencies, effects by differences."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from statorhom.diagnose.hypothesis import Hypothesis, Told
+from statorhom.diagnose.prediction import PredictedMode, acted_materials, material_vector
+from statorhom.diagnose.stage_model import StageModel
+from statorhom.diagnose.study_model import StudyModel
+from statorhom.errors import StatorhomError
+from statorhom.model.convergence import ModeKey
+
+FloatArray = npt.NDArray[np.float64]
+STEP, EFFECT_STEP = 1e-3, 1e-2  # of internal coordinates
+
+
+def jacobian(h: Hypothesis, z: FloatArray) -> FloatArray:
+    """Derivative of the residuals, (features, coordinates)."""
+    base, told = h.all_features(z)
+    seen = [i for i, f in enumerate(base) if h.sees(f)]
+    start = np.array([base[i].residual for i in seen])
+    columns = []
+    for j in range(h.constants):
+        columns.append(_constant_column(h, z, j, told, seen, start))
+    for j in range(h.constants, len(z)):
+        columns.append(_effect_column(h, z, j, start))
+    return np.array(columns).T.reshape(len(start), len(z))
+
+
+def _constant_column(
+    h: Hypothesis,
+    z: FloatArray,
+    j: int,
+    told: Told,
+    seen: Sequence[int],
+    start: FloatArray,
+) -> FloatArray:
+    upper = h.study.constants.limits[1][j]
+    for sign in (1.0, -1.0) if z[j] + STEP <= upper else (-1.0,):
+        moved = z.copy()
+        moved[j] += sign * STEP
+        try:
+            found, _ = h.all_features(moved, _moved(h, z, moved, told))
+        except StatorhomError:
+            continue  # at the edge of what materials exist
+        return (np.array([found[i].residual for i in seen]) - start) / (sign * STEP)
+    return np.zeros(len(start))
+
+
+def _effect_column(h: Hypothesis, z: FloatArray, j: int, start: FloatArray) -> FloatArray:
+    for sign in (1.0, -1.0):
+        moved = z.copy()
+        moved[j] += sign * EFFECT_STEP
+        try:
+            return (h.residuals(moved) - start) / (sign * EFFECT_STEP)
+        except StatorhomError:
+            continue
+    return np.zeros(len(start))
+
+
+def _moved(
+    h: Hypothesis, z: FloatArray, moved: FloatArray, told: Told
+) -> dict[str, tuple[StageModel, Mapping[str, Mapping[ModeKey, PredictedMode]]]]:
+    """Predictions at a neighbouring point to first order: eigenvalues are not solved again."""
+    actions = h.actions(z)
+    before, after = (h.study.constants.values(p[: h.constants]) for p in (z, moved))
+    changed = {name for name in after if after[name] != before[name]}
+    found: dict[str, tuple[StageModel, Mapping[str, Mapping[ModeKey, PredictedMode]]]] = {}
+    for name, (stage, tests) in told.items():
+        new: dict[str, Mapping[ModeKey, PredictedMode]] = {}
+        for test, modes in tests.items():
+            new[test] = modes
+            if not any(_concerns(h.study, stage, one) for one in changed):
+                continue
+            parts = [acted_materials(h.study, stage, v, actions, test) for v in (before, after)]
+            regions = tuple(parts[0])
+            change = material_vector(parts[1], regions) - material_vector(parts[0], regions)
+            slopes = stage.slopes(parts[0], modes)
+            mesh = after[f"{stage.name}:mesh"] - before[f"{stage.name}:mesh"]
+            new[test] = {
+                key: replace(modes[key], log_f=modes[key].log_f + slope @ change + mesh * modes[key].shared)
+                for key, slope in slopes.items()
+            }
+        found[name] = (stage, new)
+    return found
+
+
+def _concerns(study: StudyModel, stage: StageModel, constant: str) -> bool:
+    owners = study.constants.owners[stage.setup.index].values()
+    return constant in owners or constant.endswith("mass_kg") or constant == f"{stage.name}:mesh"

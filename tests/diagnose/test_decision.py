@@ -1,0 +1,63 @@
+"""Each rule alone decides a case that breaks it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from statorhom.diagnose.decision import Evidence, decide
+from statorhom.diagnose.held_out import HeldOut
+
+GROUPS = tuple(("test", (r, 0, 0)) for r in range(2, 8))
+FALLS = HeldOut(GROUPS, (2.0, 3.0, 1.5, 2.5, 2.0, 3.0), (0.2, 0.3, 0.1, 0.2, 0.3, 0.2), (0.1,) * 6)
+GOOD = Evidence(
+    p_value=1e-3,
+    over_nothing=40.0,
+    over_others=12.0,
+    held_out=FALLS,
+    adequacy=0.4,
+    nothing_adequacy=1e-9,
+    within=True,
+    stability=1.0,
+)
+
+
+def test_all_rules_met_names() -> None:
+    assert decide(GOOD) == "named"
+
+
+@pytest.mark.parametrize(
+    ("change", "verdict"),
+    [
+        ({"p_value": 0.02}, "none"),
+        ({"over_nothing": 4.0}, "unknown"),
+        ({"over_nothing": 4.0, "nothing_adequacy": 0.3}, "none"),
+        ({"over_others": 2.0}, "ambiguous"),
+        ({"held_out": None}, "unknown"),
+        ({"held_out": replace(FALLS, after=FALLS.before)}, "unknown"),
+        ({"adequacy": 1e-3}, "unknown"),
+        ({"within": False}, "unknown"),
+        ({"stability": 0.7}, "ambiguous"),
+    ],
+)
+def test_each_rule_fails_alone(change: dict[str, object], verdict: str) -> None:
+    assert decide(replace(GOOD, **change)) == verdict
+
+
+def test_a_fall_by_less_than_a_quarter_is_none() -> None:
+    almost = replace(FALLS, after=tuple(0.8 * b for b in FALLS.before))
+    assert FALLS.falls
+    assert not almost.falls
+
+
+def test_a_fall_within_the_noise_is_none() -> None:
+    noisy = HeldOut(GROUPS, (0.30, 0.20, 0.25, 0.1, 0.3, 0.2), (0.1, 0.15, 0.1, 0.2, 0.05, 0.2), (1.0,) * 6)
+    assert not noisy.falls
+
+
+def test_a_test_that_worsens_is_seen() -> None:
+    groups = (*GROUPS[:5], ("other", (2, 0, 0)))
+    worse = HeldOut(groups, (*FALLS.before[:5], 0.2), (*FALLS.after[:5], 1.0), (0.1,) * 6)
+    assert worse.falls
+    assert worse.worsens

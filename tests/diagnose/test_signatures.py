@@ -1,0 +1,128 @@
+"""Signatures of effects on a small mesh against finite differences of the full model and the rules of first order."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from small_stators import MATERIALS, stator_mesh
+
+from statorhom.diagnose.broken_response import responses
+from statorhom.diagnose.ring_basis import ring_basis
+from statorhom.diagnose.stage_model import StageModel
+from statorhom.identify.model_error import ModelError
+from statorhom.mesh import uniform
+from statorhom.model.affine import assemble
+from statorhom.model.broken.attachments import footed_lump, point_springs
+from statorhom.model.broken.variations import strip, wave
+from statorhom.model.convergence import mode_keys
+from statorhom.model.free_modes import solve_free
+from statorhom.physics.action import Action
+from statorhom.physics.candidate import Candidate
+from statorhom.physics.effects.interlaminar_shear import sheared
+from statorhom.physics.library import library
+from statorhom.physics.pieces import region_pieces
+
+TOP = 9000.0
+STACK = {"lamination": MATERIALS["lamination"]}
+SETUP = SimpleNamespace(keys=SimpleNamespace(name="stack"))
+
+
+@pytest.fixture(scope="module")
+def stage() -> StageModel:
+    model = assemble(stator_mesh(12))
+    ring = ring_basis(model, [STACK], TOP, range(5))
+    return StageModel(SETUP, (), ring, STACK, ModelError(), uniform(1))
+
+
+def test_ring_basis_reproduces_the_full_model(stage: StageModel) -> None:
+    full = mode_keys(solve_free(stage.model, STACK, TOP, range(5)).modes)
+    for key, mode in stage.reference_keys.items():
+        assert mode.frequency_hz == pytest.approx(full[key].frequency_hz, rel=1e-7)
+
+
+def test_material_slopes_are_those_of_the_full_model(stage: StageModel) -> None:
+    """Shear: analytic slopes of the basis against central differences of full solutions."""
+    step = 1e-3
+    tables = []
+    for sign in (-1, 1):
+        material = sheared(STACK["lamination"], 25e9 * (1 + sign * step), 100e9)
+        tables.append(
+            (material, mode_keys(solve_free(stage.model, {"lamination": material}, TOP, range(5)).modes))
+        )
+    centre = sheared(STACK["lamination"], 25e9, 100e9)
+    slopes = stage.slopes({"lamination": centre}, stage.reference_keys)
+    from statorhom.diagnose.prediction import material_vector
+
+    vectors = [material_vector({"lamination": material}, ["lamination"]) for material, _ in tables]
+    checked = 0
+    for key, slope in slopes.items():
+        if all(key in table for _, table in tables):
+            full = np.log(tables[1][1][key].frequency_hz / tables[0][1][key].frequency_hz)
+            # the basis holds one material's modes: its error is of second order in how far `centre` is from it
+            assert float(slope @ (vectors[1] - vectors[0])) == pytest.approx(full, rel=0.05, abs=2e-6)
+            checked += 1
+    assert checked >= 5
+
+
+@pytest.mark.parametrize("angle", [0.3, 1.9])
+def test_a_lump_follows_the_first_order_rules(stage: StageModel, angle: float) -> None:
+    """Split: |b| = m φ² and arg b = 2rθ + π; shift of the mean: -¼ of it in ln f per doublet (physics.md §5)."""
+    mesh = stage.model.mesh
+    mass = 1e-4
+    found = responses(stage, [footed_lump(mesh, angle, 0.5 * mesh.length, mass, foot=1e-3, height=0.0)])
+    for key in ((2, 0, 0), (3, 0, 0)):
+        planes, amplitude = stage.amplitudes[key]
+        size = mass * float(np.interp(0.5 * mesh.length, planes, amplitude)) ** 2
+        b = found[key].split
+        turned = b * np.exp(-1j * (2 * key[0] * angle + np.pi))
+        # tangential motion at the node of the radial one carries mass too and lessens the split
+        assert turned.real == pytest.approx(size * (1 - 1 / key[0] ** 2), rel=0.3)
+        assert abs(np.angle(turned)) < 0.05
+        assert found[key].shift < 0
+
+
+def test_responses_grow_linearly_and_turn_with_their_cause(stage: StageModel) -> None:
+    mesh, pitch = stage.model.mesh, 2 * np.pi / 12
+    core = region_pieces(mesh, "lamination", STACK["lamination"])
+    small, large, turned = (
+        responses(stage, [strip(mesh, core, a, width=0.3, depth=0.004, ratio=1 + e)])
+        for a, e in ((0.2, 0.01), (0.2, 0.02), (0.2 + pitch, 0.01))
+    )
+    for key in ((2, 0, 0), (3, 0, 0)):
+        assert large[key].split == pytest.approx(2 * small[key].split, rel=0.05)
+        expected = small[key].split * np.exp(2j * key[0] * pitch)
+        assert abs(turned[key].split - expected) < 0.02 * abs(expected)
+
+
+def test_a_wave_splits_its_own_order_alone(stage: StageModel) -> None:
+    mesh = stage.model.mesh
+    core = region_pieces(mesh, "lamination", STACK["lamination"])
+    found = responses(stage, [wave(mesh, core, 0.1, harmonic=4, amplitude=0.01, inner=0.051)])
+    assert abs(found[2, 0, 0].split) > 20 * abs(found[3, 0, 0].split)
+    # the maximum of stiffness lies at the antinode of the upper mode
+    assert np.angle(found[2, 0, 0].split * np.exp(-4j * 0.1)) == pytest.approx(0.0, abs=0.05)
+
+
+def test_ground_springs_fall_with_the_frequency_squared(stage: StageModel) -> None:
+    mesh = stage.model.mesh
+    spring = [point_springs(mesh, np.array([0.4]), np.array([0.04]), np.array([1e5, 0.0, 0.0]))]
+    found = responses(stage, spring)
+    shares = []
+    for key in ((2, 0, 0), (3, 0, 0)):
+        planes, amplitude = stage.amplitudes[key]
+        modal = float(np.interp(0.04, planes, amplitude)) ** 2
+        omega = 2 * np.pi * stage.reference_keys[key].frequency_hz
+        shares.append(found[key].shift / (1e5 * modal / (4 * omega**2)))
+    assert shares == pytest.approx([1.0, 1.0], rel=0.1)
+
+
+def test_sensors_and_names_act_on_observations_alone() -> None:
+    sensor = library()["sensor_mass"].action(
+        Candidate("sensor_mass", "s", (), test="t"), {"mass_kg": 0.01}, None
+    )  # type: ignore[arg-type]
+    assert sensor.sensor_kg == 0.01
+    assert sensor.changes is None and sensor.materials is None
+    assert sensor.touches("s", "t") and not sensor.touches("s", "other")
+    assert Action().touches("any")
