@@ -7,6 +7,7 @@ WORK/runs/NAME/run.json (seconds, exit code, message).
 from __future__ import annotations
 
 import json
+import multiprocessing
 import shutil
 import subprocess
 import sys
@@ -25,6 +26,7 @@ from statorhom.conceal.folder import TRUTH
 from statorhom.errors import StatorhomError
 from statorhom.study.atomic import write_text
 
+RENEWED = 4  # cases that one process makes
 PATIENCE_S = 1800.0  # a diagnosis that takes longer counts as failed
 
 
@@ -103,6 +105,8 @@ def each(
     jobs: int,
 ) -> None:
     """Do something with all cases, some at a time."""
-    with ProcessPoolExecutor(jobs) as pool:
+    # a process is renewed now and then: what solvers leave behind adds up to gigabytes
+    spawn = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(jobs, mp_context=spawn, max_tasks_per_child=RENEWED) as pool:
         for number, fault in enumerate(pool.map(function, repeat(work), cases), start=1):
             print(f"{what} {number}/{len(cases)}{f': {fault}' if fault else ''}", flush=True)
