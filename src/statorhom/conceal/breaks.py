@@ -15,7 +15,7 @@ from statorhom.model.broken.cells import Sectors, cells
 from statorhom.model.broken.change import Attachment, Change, PieceChange
 from statorhom.model.broken.interface import Contact
 from statorhom.model.broken.pieces import Pieces, elements_in
-from statorhom.model.broken.variations import arc, gradient, strip, wave
+from statorhom.model.broken.variations import gradient, strip, wave
 from statorhom.model.surface import surface_points
 
 
@@ -158,7 +158,10 @@ class LostContact:
         """On a mesh."""
         joint = ground.contact
         assert joint is not None, "the effect gives its stage a contact"
-        return (arc(joint.pieces, Sectors(joint.angle, ground.mesh.slots), self.start, self.end, self.ratio),)
+        # all faces of a half pitch are lost alike: one projection serves them all
+        half = Sectors(np.array([[0.0, np.pi / ground.mesh.slots]]), ground.mesh.slots)
+        weights = (self.ratio - 1.0) * half.share_of_arc(self.start, self.end)
+        return (PieceChange(joint.pieces, None, np.repeat(weights, len(joint.pieces), axis=0)),)
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,7 +17,7 @@ def _parameters(place: Place) -> tuple[Drawn, ...]:
     del place
     return (
         Drawn("arc_deg", 15.0, 180.0, "log", is_strength=True),
-        Drawn("contact_ratio", 0.05, 0.002, "log"),
+        Drawn("contact_ratio", 3e-3, 1e-4, "log"),
         ANGLE,
     )
 
