@@ -5,8 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from statorhom.diagnose.features import KNEE, LINEAR, held_down, shift_features
-from statorhom.diagnose.measured import MeasuredTest, PlaneShifts
+from statorhom.diagnose.derivatives import slopes_of
+from statorhom.diagnose.features import KNEE, LINEAR, LOST, free_features, held_down, shift_features
+from statorhom.diagnose.measured import MeasuredSplit, MeasuredTest, PlaneShifts
+from statorhom.diagnose.prediction import PredictedMode
+from statorhom.identify.model_error import ModelError
+from statorhom.model.stator_mode import StatorMode
+from statorhom.study.modal_table import MeasuredMode
 
 
 def test_residuals_are_linear_up_to_the_knee_and_smooth_beyond() -> None:
@@ -29,3 +34,21 @@ def test_the_right_sensor_mass_leaves_nothing() -> None:
     none = shift_features(test, {"1": key}, {key: (z, amplitude)}, 0.0)
     assert max(abs(f.residual) for f in right) < 1e-6
     assert max(abs(f.residual) for f in none) > 3.0
+
+
+@pytest.mark.parametrize("rows", [1, 2])
+@pytest.mark.parametrize("recorded", [False, True])
+@pytest.mark.parametrize("resolved", [False, True])
+def test_a_vanished_partner_leaves_as_many_features(rows: int, recorded: bool, resolved: bool) -> None:
+    """The list of features is the same on both sides of a step, penalties in the place of what is missing."""
+    key = (2, 0, 0)
+    modes = tuple(MeasuredMode(i + 1, str(i), 1000.0 + 4 * i, order=2, axial=0) for i in range(rows))
+    splits = (MeasuredSplit("0", "1", 0.004 + 0j, 1e-4),) if resolved else ()
+    test = MeasuredTest(0, "t", "free", modes, recorded, splits)
+    doublet = StatorMode(1000.0, 2, 0, "radial", 1.0, 2, 0, 0)
+    there = {key: PredictedMode(key, doublet, float(np.log(1000.0)), 0.004 + 0j, 1e-3)}
+    both = [free_features(test, modes, (key,) * rows, p, {}, ModelError()) for p in (there, {})]
+    assert [(f.kind, f.group) for f in both[0]] == [(f.kind, f.group) for f in both[1]]
+    assert sum(f.residual == -held_down(LOST) for f in both[1]) == min(rows, len(both[1]))
+    assert not any(f.lost for f in both[0]) and all(f.lost for f in both[1])
+    assert not slopes_of(both[0], both[1], 1e-2).any()

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from statorhom.diagnose.features import Feature
 from statorhom.diagnose.hypothesis import Hypothesis, Told
 from statorhom.diagnose.prediction import PredictedMode, acted_materials, material_vector
 from statorhom.diagnose.stage_model import StageModel
@@ -23,13 +24,23 @@ def jacobian(h: Hypothesis, z: FloatArray) -> FloatArray:
     """Derivative of the residuals, (features, coordinates)."""
     base, told = h.all_features(z)
     seen = [i for i, f in enumerate(base) if h.sees(f)]
-    start = np.array([base[i].residual for i in seen])
+    start = [base[i] for i in seen]
     columns = []
     for j in range(h.constants):
         columns.append(_constant_column(h, z, j, told, seen, start))
     for j in range(h.constants, len(z)):
-        columns.append(_effect_column(h, z, j, start))
+        columns.append(_effect_column(h, z, j, seen, start))
     return np.array(columns).T.reshape(len(start), len(z))
+
+
+def slopes_of(start: Sequence[Feature], moved: Sequence[Feature], step: float) -> FloatArray:
+    """Of the residuals; none where a mode appears or vanishes on the way, which is a jump."""
+    return np.array(
+        [
+            0.0 if a.lost or b.lost else (b.residual - a.residual) / step
+            for a, b in zip(start, moved, strict=True)
+        ]
+    )
 
 
 def _constant_column(
@@ -38,7 +49,7 @@ def _constant_column(
     j: int,
     told: Told,
     seen: Sequence[int],
-    start: FloatArray,
+    start: Sequence[Feature],
 ) -> FloatArray:
     upper = h.study.constants.limits[1][j]
     for sign in (1.0, -1.0) if z[j] + STEP <= upper else (-1.0,):
@@ -48,18 +59,21 @@ def _constant_column(
             found, _ = h.all_features(moved, _moved(h, z, moved, told))
         except StatorhomError:
             continue  # at the edge of what materials exist
-        return (np.array([found[i].residual for i in seen]) - start) / (sign * STEP)
+        return slopes_of(start, [found[i] for i in seen], sign * STEP)
     return np.zeros(len(start))
 
 
-def _effect_column(h: Hypothesis, z: FloatArray, j: int, start: FloatArray) -> FloatArray:
+def _effect_column(
+    h: Hypothesis, z: FloatArray, j: int, seen: Sequence[int], start: Sequence[Feature]
+) -> FloatArray:
     for sign in (1.0, -1.0):
         moved = z.copy()
         moved[j] += sign * EFFECT_STEP
         try:
-            return (h.residuals(moved) - start) / (sign * EFFECT_STEP)
+            found, _ = h.all_features(moved)
         except StatorhomError:
             continue
+        return slopes_of(start, [found[i] for i in seen], sign * EFFECT_STEP)
     return np.zeros(len(start))
 
 
@@ -82,7 +96,7 @@ def _moved(
             change = material_vector(parts[1], regions) - material_vector(parts[0], regions)
             slopes = stage.slopes(parts[0], modes)
             mesh = after[f"{stage.name}:mesh"] - before[f"{stage.name}:mesh"]
-            new[test] = {
+            new[test] = dict(modes) | {
                 key: replace(modes[key], log_f=modes[key].log_f + slope @ change + mesh * modes[key].shared)
                 for key, slope in slopes.items()
             }

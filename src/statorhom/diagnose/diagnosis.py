@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -33,6 +34,7 @@ from statorhom.diagnose.report_rows import (
 )
 from statorhom.diagnose.resampling import stability
 from statorhom.diagnose.scan import Scan, scan
+from statorhom.errors import IdentificationError
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.settings import Settings
@@ -81,13 +83,32 @@ def diagnose(
         If files, masses or tests do not allow it.
     """
     began = time.perf_counter()
-    with threadpool_limits(limits=1, user_api="blas"):
+    with threadpool_limits(limits=1, user_api="blas"), one_line_errors(str(files.path)):
         found = _find(files, geometry, tests, settings, announce)
         diagnosis = _diagnosis(files, found)
         details = _details(found, time.perf_counter() - began)
         best = found.best.refit
         actions = best.hypothesis.actions(best.z) if found.verdict == "named" else ()
     return diagnosis, details, actions
+
+
+@contextmanager
+def one_line_errors(path: str) -> Iterator[None]:
+    """What numbers nobody thought of lead to, in the program's own words.
+
+    Raises
+    ------
+    IdentificationError
+        For every arithmetic error, lookup or value that fails inside.
+    """
+    try:
+        yield
+    except (ArithmeticError, LookupError, ValueError, RuntimeError) as error:
+        said = " ".join(f"{type(error).__name__} {error}".split())
+        raise IdentificationError(
+            f"{path}: the diagnosis cannot go on with these tests ({said}); run 'statorhom check', and leave out "
+            "tests one by one to find the one at fault"
+        ) from error
 
 
 def _find(

@@ -45,6 +45,7 @@ class Feature:
     key : of which mode.
     measured, predicted : ln f, relative split, relative shift, or kg/m³.
     sd : of their difference.
+    lost : whether the model has no such mode: the residual is a penalty.
     """
 
     kind: str
@@ -53,6 +54,7 @@ class Feature:
     measured: float
     predicted: float
     sd: float
+    lost: bool = False
 
     @property
     def residual(self) -> float:
@@ -134,15 +136,28 @@ def free_features(
                 test, rows, predicted[key], scatter, float(np.hypot(own_sd(error, key), discrepancy))
             )
         else:
-            found += _lost(test, rows)
+            found += _vanished(test, rows, key)
     return found
+
+
+def _vanished(test: MeasuredTest, rows: Sequence[MeasuredMode], key: ModeKey) -> list[Feature]:
+    """Penalties in the place of the features of a held partner that is predicted no more: as many, in their order."""
+    if len(rows) == 1:
+        kinds = ["frequency"] if key[0] == 0 else ["frequency", "split"]
+    else:
+        seen = _split_of(test, rows) is not None
+        kinds = ["frequency", *(["split"] * (2 if seen else 0 if test.recorded else 1))]
+    return [
+        Feature(kind, test.name, key, 0.0, LOST if i < len(rows) else 0.0, 1.0, lost=True)
+        for i, kind in enumerate(kinds)
+    ]
 
 
 def _lost(test: MeasuredTest, rows: Sequence[MeasuredMode]) -> list[Feature]:
     """Modes without a partner; what a recording shows beyond the usual orders may be an image of another mode."""
     kept = [m for m in rows if not test.recorded or (m.order is not None and m.order <= USUAL_ORDERS)]
     return [
-        Feature("frequency", test.name, None, LOST if m.order is not None else LOST_UNNAMED, 0.0, 1.0)
+        Feature("frequency", test.name, None, LOST if m.order is not None else LOST_UNNAMED, 0.0, 1.0, True)
         for m in kept
     ]
 

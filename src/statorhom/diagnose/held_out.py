@@ -102,7 +102,7 @@ def held_out(base: Refit, explanation: Explanation) -> HeldOut:
 def _groups(base: Refit, explanation: Explanation) -> list[Group]:
     """Modes that both have a partner for, tests mixed."""
     both = [
-        {f.group for f in r.hypothesis.features(r.z) if f.kind in WEIGHT and f.key is not None}
+        {f.group for f in r.hypothesis.features(r.z) if f.kind in WEIGHT and not f.lost}
         for r in (base, explanation.refit)
     ]
     return sorted(both[0] & both[1], key=str)
@@ -117,7 +117,7 @@ def _errors(full: Refit, fold: frozenset[Group]) -> dict[Group, tuple[float, flo
         return {}
     found: dict[Group, list[Feature]] = {}
     for feature in trained.hypothesis.features(trained.z, left_out=True):
-        if feature.kind in WEIGHT and feature.sd < 0.5:
+        if feature.kind in WEIGHT and not feature.lost and feature.sd < 0.5:
             found.setdefault(feature.group, []).append(feature)
     return {group: (_error(features), _noise(features)) for group, features in found.items()}
 

@@ -8,9 +8,11 @@ import numpy as np
 
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.features import Feature
+from statorhom.diagnose.opposite import likeliest_first
 from statorhom.physics.candidate import Candidate
 from statorhom.results.diagnosis import Location
 
+UNTOLD = 0.5  # rad: standard deviation from which on an angle is not known
 TOLD = 3.0  # standard deviations of a split from which on it tells an angle
 
 
@@ -23,13 +25,15 @@ def located(explanation: Explanation, number: int) -> Location | None:
     values = r.hypothesis.effect_values(r.z)[number]
     sd = _deviations(explanation, number)
     angle, place = values.get("angle_rad"), values.get("z_m")
-    told = "angle_rad" in sd and sd["angle_rad"] < 0.5
+    told = angle is not None and sd["angle_rad"] < UNTOLD
+    same: tuple[float, ...] = ()
+    if angle is not None and told:
+        same = likeliest_first(explanation, number, _equivalent(candidate, r.hypothesis.features(r.z), angle))
+    degrees = tuple(round(float(np.rad2deg(a)), 3) for a in same)
     return Location(
-        angle_deg=float(np.rad2deg(angle)) if angle is not None and told else None,
-        angle_sd_deg=float(np.rad2deg(sd["angle_rad"])) if angle is not None and told else None,
-        angle_ambiguity_deg=_equivalent(candidate, r.hypothesis.features(r.z), angle)
-        if told and angle is not None
-        else (),
+        angle_deg=degrees[0] if degrees else None,
+        angle_sd_deg=float(np.rad2deg(sd["angle_rad"])) if degrees else None,
+        angle_ambiguity_deg=degrees,
         z_mm=None if place is None else 1e3 * place,
         z_sd_mm=None if place is None else 1e3 * min(sd["z_m"], candidate.parameters[-1].upper),
     )
@@ -49,7 +53,7 @@ def _deviations(explanation: Explanation, number: int) -> dict[str, float]:
 
 
 def _equivalent(candidate: Candidate, features: Sequence[Feature], angle: float) -> tuple[float, ...]:
-    """Angles that the measured splits do not tell apart: the orders' common period."""
+    """Angles (rad) that the measured splits do not tell apart: the orders' common period."""
     orders = {
         f.key[0]
         for f in features
@@ -58,6 +62,5 @@ def _equivalent(candidate: Candidate, features: Sequence[Feature], angle: float)
     period = next(p.upper - p.lower for p in candidate.parameters if p.name == "angle_rad")
     repeats = int(np.gcd.reduce([2 * r for r in orders])) if orders else 1
     if period < 2 * np.pi - 1e-9:
-        return (round(float(np.rad2deg(angle)), 3),)
-    turns = (angle + 2 * np.pi * np.arange(repeats) / repeats) % (2 * np.pi)
-    return tuple(round(float(a), 3) for a in np.rad2deg(turns))
+        return (angle,)
+    return tuple(float(a) for a in (angle + 2 * np.pi * np.arange(repeats) / repeats) % (2 * np.pi))

@@ -74,7 +74,7 @@ def frequency_errors(r: Refit) -> Errors:
     errors = [
         100 * abs(f.measured - f.predicted)
         for f in r.hypothesis.features(r.z)
-        if f.kind == "frequency" and f.key is not None
+        if f.kind == "frequency" and not f.lost
     ]
     if not errors:
         return Errors(rms_percent=0.0, max_percent=0.0)
@@ -96,7 +96,7 @@ def mismatch(base: Refit) -> Mismatch | None:
         key=lambda f: -abs(f.residual),
     )
     modes = tuple(dict.fromkeys((f.key[0], f.key[1]) for f in odd if f.key is not None))[:MOST_MODES]
-    lost = sum(f.key is None for f in odd)
+    lost = sum(f.lost and f.kind == "frequency" for f in odd)
     return Mismatch(stage=tests[worst], test=worst, modes=modes, statement=_statement(worst, odd, lost))
 
 
@@ -104,7 +104,7 @@ def _statement(test: str, odd: Sequence[Feature], lost: int) -> str:
     if not odd:
         return "the declared model meets every measured mode within its uncertainty"
     parts = []
-    frequency = [f for f in odd if f.kind == "frequency" and f.key is not None]
+    frequency = [f for f in odd if f.kind == "frequency" and not f.lost]
     if frequency:
         f = frequency[0]
         assert f.key is not None
@@ -113,7 +113,7 @@ def _statement(test: str, odd: Sequence[Feature], lost: int) -> str:
             f"{len(frequency)} frequencies are off, ({f.key[0]}, {f.key[1]}) by {error:+.2f} % "
             f"({abs(f.residual):.0f} standard deviations)"
         )
-    splits = {f.key for f in odd if f.kind == "split"}
+    splits = {f.key for f in odd if f.kind == "split" and not f.lost}
     if splits:
         parts.append(f"{len(splits)} doublets are split otherwise than predicted")
     if any(f.kind == "shift" for f in odd):
@@ -132,7 +132,7 @@ def feature_rows(base: Refit, best: Refit) -> tuple[FeatureRow, ...]:
     rows = []
     for f in base.hypothesis.features(base.z):
         same = after.get((f.test, f.key, f.kind))
-        if f.key is None or not same:
+        if f.key is None or f.lost or not same or same[0].lost:
             continue
         twin = same.pop(0)
         rows.append(

@@ -141,8 +141,10 @@ def _change(base: Refit, candidate: Candidate, start: FloatArray) -> FloatArray 
         hypothesis.study, (candidate,), hypothesis.left_out, hypothesis.held, hypothesis.missed
     )
     try:
-        with_effect = acted.residuals(np.r_[base.z, start])
+        with_effect = acted.features(np.r_[base.z, start])
     except (StatorhomError, KeyError):
         return None
-    without = hypothesis.residuals(base.z)
-    return with_effect - without if len(with_effect) == len(without) else None
+    without = hypothesis.features(base.z)
+    if [f.lost for f in with_effect] != [f.lost for f in without]:
+        return None
+    return np.array([a.residual - b.residual for a, b in zip(with_effect, without, strict=True)])
