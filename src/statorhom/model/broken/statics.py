@@ -53,7 +53,9 @@ class Statics:
     def products(self) -> np.ndarray:
         """WᵀMY, (coordinates, a)."""
         if len(self) == 0:
-            return np.zeros((len(self.basis.values), 0))  # the surface's responses would be solved for nothing
+            return np.zeros(
+                (len(self.basis.values), 0)
+            )  # the surface's responses would be solved for nothing
         return self._stacked(lambda p: p.surface_products[0])
 
     @cached_property
