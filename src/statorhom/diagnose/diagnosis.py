@@ -12,7 +12,15 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from statorhom.diagnose.baseline import Baseline, baseline
-from statorhom.diagnose.decision import Evidence, Verdict, decide, others, within_bounds
+from statorhom.diagnose.decision import (
+    OVER_OTHERS,
+    Evidence,
+    Verdict,
+    decide,
+    is_sound,
+    others,
+    within_bounds,
+)
 from statorhom.diagnose.explanations import (
     ADEQUATE,
     Explanation,
@@ -23,6 +31,7 @@ from statorhom.diagnose.explanations import (
     with_second,
 )
 from statorhom.diagnose.held_out import HeldOut, held_out
+from statorhom.diagnose.held_out_name import held_out_names, renames_alone
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.next_measurement import next_measurement
 from statorhom.diagnose.report_rows import (
@@ -156,13 +165,13 @@ def _evidence(
     totals = effect_evidence(found)
     own = totals.get(best.effects, best.log_evidence)
     next_best = max((totals[e.effects] for e in rest), default=-np.inf)
-    discrete = bool(best.candidates) and not any(c.parameters for c in best.candidates)
+    discrete = renames_alone(best)
     # names are discrete: no signature stands for them, their evidence does
     p_value = float(np.exp(-max(0.0, own - none.log_evidence))) if discrete else signatures.p_value
     over = own - none.log_evidence
     unseen: HeldOut | None = None
     if best.candidates and over > 0:
-        unseen = held_out(base.refit, best)
+        unseen = (held_out_names if discrete else held_out)(base.refit, best)
     return Evidence(
         p_value=p_value,
         over_nothing=over,
@@ -172,6 +181,7 @@ def _evidence(
         nothing_adequacy=none.adequacy,
         within=within_bounds(best),
         stability=stability([best, none, *rest[: COMPARED - 2]], seed),
+        rivals=sum(own - totals[e.effects] <= OVER_OTHERS and is_sound(e) for e in rest),
     )
 
 
@@ -199,7 +209,7 @@ def _diagnosis(files: StudyFiles, found: Found) -> Diagnosis:
             held_out=None
             if unseen is None or found.verdict == "none"
             else HeldOutErrors(
-                what="each mode predicted from fits that did not see it (three folds)",
+                what=unseen.what,
                 before_rms_percent=unseen.before_rms,
                 after_rms_percent=unseen.after_rms,
             ),
