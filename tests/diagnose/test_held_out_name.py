@@ -30,7 +30,11 @@ class FakeHypothesis:
         return ()
 
 
-def test_wrong_name_before_right_name_after(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(("old", "before"), [(1900.0, 100 * np.log(2000 / 1900)), (None, 100 * np.log(1.12))])
+def test_wrong_name_before_right_name_after(
+    old: float | None, before: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A mode of the old name lies elsewhere, or beyond the band's end."""
     row = MeasuredMode(1, "a", 2000.0, 0.2, order=2, axial=1)
     test = MeasuredTest(0, "t", "free", (row,))
     stage = SimpleNamespace(tests=(test,), error=ModelError())
@@ -41,10 +45,9 @@ def test_wrong_name_before_right_name_after(monkeypatch: pytest.MonkeyPatch) -> 
         hypothesis = FakeHypothesis(study, {"t": (key,)})
         return SimpleNamespace(hypothesis=hypothesis, z=np.zeros(0))
 
-    modes = {
-        (2, 1, 0): SimpleNamespace(log_f=np.log(1900.0)),
-        (3, 0, 0): SimpleNamespace(log_f=np.log(2001.0)),
-    }
+    modes = {(3, 0, 0): SimpleNamespace(log_f=np.log(2001.0))}
+    if old is not None:
+        modes[2, 1, 0] = SimpleNamespace(log_f=np.log(old))
     left_out = []
     monkeypatch.setattr(held_out_name, "predicted", lambda *_: modes)
     monkeypatch.setattr(
@@ -56,7 +59,7 @@ def test_wrong_name_before_right_name_after(monkeypatch: pytest.MonkeyPatch) -> 
         candidates=(Candidate("mislabelled_mode", "s", ()),), refit=refit((3, 0, 0))
     )
     found = held_out_name.held_out_names(refit((2, 1, 0)), explanation)  # type: ignore[arg-type]
-    assert found.before == pytest.approx((100 * np.log(2000 / 1900),))
+    assert found.before == pytest.approx((before,))
     assert found.after == pytest.approx((100 * np.log(2001 / 2000),))
     # neither prediction saw the mode
     assert left_out == [frozenset({("t", (2, 1, 0))}), frozenset({("t", (3, 0, 0))})]

@@ -15,6 +15,7 @@ from statorhom.diagnose.features import measured_sd, own_sd
 from statorhom.diagnose.held_out import HeldOut, refit_held
 from statorhom.diagnose.prediction import predicted
 from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.stage_model import BAND
 from statorhom.physics.library import library
 
 WHAT = "the renamed mode predicted from all others, by its old and by its new name"
@@ -41,16 +42,13 @@ def held_out_names(base: Refit, explanation: Explanation) -> HeldOut:
     rows = {}
     for place, name in names.items():
         before, after = _error(base, place, declared), _error(explanation.refit, place, {place: name})
-        if before is not None and after is not None:
-            rows[place[0], (*name, 0)] = (before[0], after[0], after[1])
-    columns = list(zip(*rows.values(), strict=True)) or [(), (), ()]
+        rows[place[0], (*name, 0)] = (before[0], after[0], after[1])
+    columns = list(zip(*rows.values(), strict=True))
     return HeldOut(tuple(rows), columns[0], columns[1], columns[2], WHAT)
 
 
-def _error(
-    full: Refit, place: tuple[str, str], names: Mapping[tuple[str, str], Name]
-) -> tuple[float, float] | None:
-    """Of one mode in percent, by a name, and its noise; None where no mode of that name is predicted."""
+def _error(full: Refit, place: tuple[str, str], names: Mapping[tuple[str, str], Name]) -> tuple[float, float]:
+    """Of one mode in percent, by a name, and its noise."""
     h = full.hypothesis
     assert h.held is not None
     stage, test = next((s, t) for s in h.study.stages for t in s.tests if t.name == place[0])
@@ -67,7 +65,8 @@ def _error(
         for key, mode in modes.items()
         if key[0] == order and (axial is None or key[1] == axial)
     ]
-    if not near:
-        return None
-    away, key = min(near)
+    # a name that nothing below the band's end carries is off by that much at least
+    end = BAND * max(mode.frequency_hz for t in stage.tests for mode in t.modes)
+    beyond = float(np.log(end / measured.frequency_hz)), (order or 0, axial or 0, 0)
+    away, key = min(near, default=beyond)
     return 100 * away, 100 * float(np.hypot(measured_sd(measured), own_sd(stage.error, key)))
