@@ -172,6 +172,8 @@ def _evidence(
     unseen: HeldOut | None = None
     if best.candidates and over > 0:
         unseen = (held_out_names if discrete else held_out)(base.refit, best)
+    # compared in the model that all share: the best one's own basis is not its rivals'
+    common = found[0] if found else best
     return Evidence(
         p_value=p_value,
         over_nothing=over,
@@ -180,7 +182,7 @@ def _evidence(
         adequacy=best.adequacy,
         nothing_adequacy=none.adequacy,
         within=within_bounds(best),
-        stability=stability([best, none, *rest[: COMPARED - 2]], seed),
+        stability=stability([common, none, *rest[: COMPARED - 2]], seed),
         rivals=sum(own - totals[e.effects] <= OVER_OTHERS and is_sound(e) for e in rest),
     )
 
