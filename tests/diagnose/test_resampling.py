@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
-from statorhom.diagnose.refit import log_volume
-from statorhom.diagnose.resampling import wins
+from statorhom.diagnose.refit import Refit, log_volume
+from statorhom.diagnose.resampling import resampled_evidence, wins
 
 
 def test_a_draw_without_detection_counts_for_nobody() -> None:
@@ -34,3 +36,33 @@ def test_a_well_seen_uniform_coordinate_has_its_gaussian_volume() -> None:
 
 def test_a_normal_coordinate_shrinks_from_prior_to_posterior() -> None:
     assert log_volume(np.diag([99.0]), np.array([1.0])) == pytest.approx(-0.5 * np.log(100.0))
+
+
+def test_with_all_data_the_evidence_is_the_refit_s_own_even_on_a_bound() -> None:
+    """A gradient that the refit could not follow must not be followed by a resampling."""
+    rng = np.random.default_rng(1)
+    J, residuals, z = rng.normal(size=(9, 3)), rng.normal(size=9), np.array([0.5, -2.0, 0.1])
+    weights = np.array([1.0, 1.0, 0.0])
+    objective = float(residuals @ residuals + np.sum(weights * z**2)) + 4.0
+    hypothesis = SimpleNamespace(prior_weights=weights, missed=4.0)
+    refit = Refit(hypothesis, z, J, float(residuals @ residuals), objective)  # type: ignore[arg-type]
+    every = np.ones(9, dtype=bool)
+    assert resampled_evidence(refit, residuals, every, 1.0, 1.0) == pytest.approx(refit.log_evidence)
+    assert resampled_evidence(refit, residuals, every, 0.5, 1.0) < refit.log_evidence
+
+
+def test_a_linear_model_is_resampled_exactly() -> None:
+    """At the optimum of a linear model: the evidence without rows is that of a fit without them."""
+    rng = np.random.default_rng(2)
+    J, data = rng.normal(size=(8, 2)), rng.normal(size=8)
+    hypothesis = SimpleNamespace(prior_weights=np.ones(2), missed=0.0)
+
+    def fitted(rows: np.ndarray) -> tuple[Refit, np.ndarray]:
+        A, y = J[rows], data[rows]
+        z = np.linalg.solve(A.T @ A + np.eye(2), A.T @ y)
+        left = A @ z - y
+        return Refit(hypothesis, z, A, float(left @ left), float(left @ left + z @ z)), left  # type: ignore[arg-type]
+
+    rows = np.arange(8) > 1
+    full, residuals = fitted(np.ones(8, dtype=bool))
+    assert resampled_evidence(full, residuals, rows, 1.0, 1.0) == pytest.approx(fitted(rows)[0].log_evidence)
