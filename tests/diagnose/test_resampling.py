@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose.refit import Refit, log_volume
-from statorhom.diagnose.resampling import resampled_evidence, wins
+from statorhom.diagnose.resampling import resampled_evidence, stability, wins
 
 
 def test_a_draw_without_detection_counts_for_nobody() -> None:
@@ -66,3 +66,8 @@ def test_a_linear_model_is_resampled_exactly() -> None:
     rows = np.arange(8) > 1
     full, residuals = fitted(np.ones(8, dtype=bool))
     assert resampled_evidence(full, residuals, rows, 1.0, 1.0) == pytest.approx(fitted(rows)[0].log_evidence)
+
+
+def test_without_a_rival_the_winner_is_stable() -> None:
+    one = SimpleNamespace()
+    assert stability([one, one], 1) == 1.0  # type: ignore[list-item]

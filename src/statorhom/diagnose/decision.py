@@ -74,9 +74,9 @@ def decide(evidence: Evidence) -> Verdict:
         return "none" if evidence.nothing_adequacy > ADEQUATE or evidence.p_value >= MAX_T_P else "unknown"
     if not evidence.sound or not (evidence.predicts or evidence.undecided):
         return "unknown" if evidence.nothing_adequacy <= ADEQUATE else "none"
-    if evidence.over_others <= OVER_OTHERS:
-        return "ambiguous"
-    return "named" if evidence.stability >= STABLE else "unknown"
+    # resamplings are lost to rivals alone, so that an unstable winner has some
+    alone = evidence.over_others > OVER_OTHERS and evidence.stability >= STABLE
+    return "named" if alone else "ambiguous"
 
 
 def is_sound(explanation: Explanation) -> bool:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -34,6 +33,7 @@ from statorhom.diagnose.held_out import HeldOut, held_out
 from statorhom.diagnose.held_out_name import held_out_names, renames_alone
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.next_measurement import next_measurement
+from statorhom.diagnose.one_line_errors import one_line_errors
 from statorhom.diagnose.report_rows import (
     constant_rows,
     effect_results,
@@ -43,7 +43,6 @@ from statorhom.diagnose.report_rows import (
 )
 from statorhom.diagnose.resampling import stability
 from statorhom.diagnose.scan import Scan, scan
-from statorhom.errors import IdentificationError
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.settings import Settings
@@ -63,6 +62,7 @@ COMPARED = 4  # explanations that resamplings compare
 SECONDS = 5  # effects that are tried beside the first
 PAIR_GAIN = 5.0  # log evidence that a second effect must add
 LEAST_PROBABILITY = 0.005
+ALTERNATIVES = 2  # that an ambiguous answer names at least
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,25 +99,6 @@ def diagnose(
         best = found.best.refit
         actions = best.hypothesis.actions(best.z) if found.verdict == "named" else ()
     return diagnosis, details, actions
-
-
-@contextmanager
-def one_line_errors(path: str) -> Iterator[None]:
-    """What numbers nobody thought of lead to, in the program's own words.
-
-    Raises
-    ------
-    IdentificationError
-        For every arithmetic error, lookup or value that fails inside.
-    """
-    try:
-        yield
-    except (ArithmeticError, LookupError, ValueError, RuntimeError) as error:
-        said = " ".join(f"{type(error).__name__} {error}".split())
-        raise IdentificationError(
-            f"{path}: the diagnosis cannot go on with these tests ({said}); run 'statorhom check', and leave out "
-            "tests one by one to find the one at fault"
-        ) from error
 
 
 def _find(
@@ -196,8 +177,14 @@ def _diagnosis(files: StudyFiles, found: Found) -> Diagnosis:
     rest = [
         Alternative(effect=e, probability=p) for e, p in chances.items() if e not in best.effects or not named
     ]
-    shown = [a for a in rest if a.probability >= LEAST_PROBABILITY and a.effect != "none"]
     ambiguous = found.verdict == "ambiguous"
+    several = [a for a in rest if a.effect != "none"]
+    # the second one of an ambiguous answer may win in resamplings alone
+    shown = [
+        a
+        for i, a in enumerate(several)
+        if a.probability >= LEAST_PROBABILITY or (ambiguous and i < ALTERNATIVES)
+    ]
     return Diagnosis(
         schema=1,
         study=files.study.name,
