@@ -61,3 +61,22 @@ def test_a_test_that_worsens_is_seen() -> None:
     worse = HeldOut(groups, (*FALLS.before[:5], 0.2), (*FALLS.after[:5], 1.0), (0.1,) * 6)
     assert worse.falls
     assert worse.worsens
+
+
+FEW = HeldOut(GROUPS, (0.1, 0.1, 2.0, 0.1, 0.1, 0.1), (0.1, 0.1, 2.0, 0.1, 0.1, 0.1), (0.1,) * 6)
+
+
+def test_too_few_modes_for_held_out_leave_sound_rivals_ambiguous() -> None:
+    close = replace(GOOD, held_out=FEW, over_others=0.4, rivals=1)
+    assert decide(close) == "ambiguous"
+    assert decide(replace(close, held_out=None)) == "ambiguous"
+    assert decide(replace(close, rivals=0)) == "unknown"
+    assert decide(replace(close, adequacy=1e-3)) == "unknown"
+    # enough modes, and they contradict
+    assert decide(replace(close, held_out=replace(FALLS, after=FALLS.before))) == "unknown"
+
+
+def test_one_explanation_alone_is_never_ambiguous() -> None:
+    alone = replace(GOOD, over_others=float("inf"))
+    assert decide(alone) == "named"
+    assert decide(replace(alone, held_out=FEW)) == "unknown"

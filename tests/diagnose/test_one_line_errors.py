@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from statorhom.diagnose.diagnosis import one_line_errors
+from statorhom.diagnose.one_line_errors import one_line_errors
 from statorhom.errors import IdentificationError, SolverError
 
 

@@ -16,6 +16,7 @@ MAX_T_P = 0.01
 OVER_NOTHING, OVER_OTHERS = 5.0, 3.0  # of log evidence
 ADEQUATE = 0.01
 STABLE = 0.8
+FEW = 4  # modes that show an effect, below which three folds cannot decide
 NEAR_BOUND = 0.02  # of a parameter's range, in its own scale
 
 
@@ -32,6 +33,7 @@ class Evidence:
     nothing_adequacy : and of the declared model.
     within : whether all magnitudes lie inside their physical ranges, off the bounds.
     stability : share of resamplings with the same winner.
+    rivals : number of other sound explanations that the evidence does not tell from the best one.
     """
 
     p_value: float
@@ -42,6 +44,7 @@ class Evidence:
     nothing_adequacy: float
     within: bool
     stability: float
+    rivals: int = 0
 
     @property
     def detected(self) -> bool:
@@ -59,18 +62,26 @@ class Evidence:
         return self.adequacy > ADEQUATE and self.within
 
     @property
-    def alone(self) -> bool:
-        """Second half of rule 2, and rule 5."""
-        return self.over_others > OVER_OTHERS and self.stability >= STABLE
+    def undecided(self) -> bool:
+        """Whether rule 3 has too few modes that show anything, while several sound explanations stand side by side."""
+        few = self.held_out is None or self.held_out.informative < FEW
+        return few and self.rivals > 0
 
 
 def decide(evidence: Evidence) -> Verdict:
-    """The verdict."""
+    """The verdict; several effects are named as alternatives only where there are several."""
     if not evidence.detected:
         return "none" if evidence.nothing_adequacy > ADEQUATE or evidence.p_value >= MAX_T_P else "unknown"
-    if not (evidence.predicts and evidence.sound):
+    if not evidence.sound or not (evidence.predicts or evidence.undecided):
         return "unknown" if evidence.nothing_adequacy <= ADEQUATE else "none"
-    return "named" if evidence.alone else "ambiguous"
+    # resamplings are lost to rivals alone, so that an unstable winner has some
+    alone = evidence.over_others > OVER_OTHERS and evidence.stability >= STABLE
+    return "named" if alone else "ambiguous"
+
+
+def is_sound(explanation: Explanation) -> bool:
+    """Rule 4 for any explanation."""
+    return explanation.adequacy > ADEQUATE and within_bounds(explanation)
 
 
 def within_bounds(explanation: Explanation) -> bool:

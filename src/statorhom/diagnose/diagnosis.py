@@ -4,15 +4,22 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from statorhom.diagnose.baseline import Baseline, baseline
-from statorhom.diagnose.decision import Evidence, Verdict, decide, others, within_bounds
+from statorhom.diagnose.decision import (
+    OVER_OTHERS,
+    Evidence,
+    Verdict,
+    decide,
+    is_sound,
+    others,
+    within_bounds,
+)
 from statorhom.diagnose.explanations import (
     ADEQUATE,
     Explanation,
@@ -23,8 +30,10 @@ from statorhom.diagnose.explanations import (
     with_second,
 )
 from statorhom.diagnose.held_out import HeldOut, held_out
+from statorhom.diagnose.held_out_name import held_out_names, renames_alone
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.next_measurement import next_measurement
+from statorhom.diagnose.one_line_errors import one_line_errors
 from statorhom.diagnose.report_rows import (
     constant_rows,
     effect_results,
@@ -34,7 +43,6 @@ from statorhom.diagnose.report_rows import (
 )
 from statorhom.diagnose.resampling import stability
 from statorhom.diagnose.scan import Scan, scan
-from statorhom.errors import IdentificationError
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.settings import Settings
@@ -54,6 +62,7 @@ COMPARED = 4  # explanations that resamplings compare
 SECONDS = 5  # effects that are tried beside the first
 PAIR_GAIN = 5.0  # log evidence that a second effect must add
 LEAST_PROBABILITY = 0.005
+ALTERNATIVES = 2  # that an ambiguous answer names at least
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,25 +99,6 @@ def diagnose(
         best = found.best.refit
         actions = best.hypothesis.actions(best.z) if found.verdict == "named" else ()
     return diagnosis, details, actions
-
-
-@contextmanager
-def one_line_errors(path: str) -> Iterator[None]:
-    """What numbers nobody thought of lead to, in the program's own words.
-
-    Raises
-    ------
-    IdentificationError
-        For every arithmetic error, lookup or value that fails inside.
-    """
-    try:
-        yield
-    except (ArithmeticError, LookupError, ValueError, RuntimeError) as error:
-        said = " ".join(f"{type(error).__name__} {error}".split())
-        raise IdentificationError(
-            f"{path}: the diagnosis cannot go on with these tests ({said}); run 'statorhom check', and leave out "
-            "tests one by one to find the one at fault"
-        ) from error
 
 
 def _find(
@@ -156,13 +146,15 @@ def _evidence(
     totals = effect_evidence(found)
     own = totals.get(best.effects, best.log_evidence)
     next_best = max((totals[e.effects] for e in rest), default=-np.inf)
-    discrete = bool(best.candidates) and not any(c.parameters for c in best.candidates)
+    discrete = renames_alone(best)
     # names are discrete: no signature stands for them, their evidence does
     p_value = float(np.exp(-max(0.0, own - none.log_evidence))) if discrete else signatures.p_value
     over = own - none.log_evidence
     unseen: HeldOut | None = None
     if best.candidates and over > 0:
-        unseen = held_out(base.refit, best)
+        unseen = (held_out_names if discrete else held_out)(base.refit, best)
+    # compared in the model that all share: the best one's own basis is not its rivals'
+    common = found[0] if found else best
     return Evidence(
         p_value=p_value,
         over_nothing=over,
@@ -171,7 +163,8 @@ def _evidence(
         adequacy=best.adequacy,
         nothing_adequacy=none.adequacy,
         within=within_bounds(best),
-        stability=stability([best, none, *rest[: COMPARED - 2]], seed),
+        stability=stability([common, none, *rest[: COMPARED - 2]], seed),
+        rivals=sum(own - totals[e.effects] <= OVER_OTHERS and is_sound(e) for e in rest),
     )
 
 
@@ -184,8 +177,14 @@ def _diagnosis(files: StudyFiles, found: Found) -> Diagnosis:
     rest = [
         Alternative(effect=e, probability=p) for e, p in chances.items() if e not in best.effects or not named
     ]
-    shown = [a for a in rest if a.probability >= LEAST_PROBABILITY and a.effect != "none"]
     ambiguous = found.verdict == "ambiguous"
+    several = [a for a in rest if a.effect != "none"]
+    # the second one of an ambiguous answer may win in resamplings alone
+    shown = [
+        a
+        for i, a in enumerate(several)
+        if a.probability >= LEAST_PROBABILITY or (ambiguous and i < ALTERNATIVES)
+    ]
     return Diagnosis(
         schema=1,
         study=files.study.name,
@@ -199,7 +198,7 @@ def _diagnosis(files: StudyFiles, found: Found) -> Diagnosis:
             held_out=None
             if unseen is None or found.verdict == "none"
             else HeldOutErrors(
-                what="each mode predicted from fits that did not see it (three folds)",
+                what=unseen.what,
                 before_rms_percent=unseen.before_rms,
                 after_rms_percent=unseen.after_rms,
             ),

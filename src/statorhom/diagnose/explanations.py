@@ -49,10 +49,15 @@ class Explanation:
 
     @property
     def adequacy(self) -> float:
-        """Chance of a misfit at least as large, if the explanation is right."""
+        """Chance of a misfit at least as large, if the explanation is right.
+
+        What is known of the constants counts like a measurement; how large an effect usually is does not: for that
+        there are physical limits.
+        """
         r = self.refit
-        features = len(r.jacobian)
-        return float(chi2.sf(r.objective - r.hypothesis.missed, max(features, 1)))
+        effect = slice(r.hypothesis.constants, None)
+        unusual = float(np.sum(r.hypothesis.prior_weights[effect] * r.z[effect] ** 2))
+        return float(chi2.sf(r.objective - r.hypothesis.missed - unusual, max(len(r.jacobian), 1)))
 
 
 def nothing(base: Refit) -> Explanation:

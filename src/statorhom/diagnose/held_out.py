@@ -33,12 +33,19 @@ class HeldOut:
     groups : test and mode.
     before, after : of the declared model and of the explanation.
     noise : what the measurement and the mesh leave uncertain.
+    what : one line for the report.
     """
 
     groups: tuple[Group, ...]
     before: tuple[float, ...]
     after: tuple[float, ...]
     noise: tuple[float, ...]
+    what: str = "each mode predicted from fits that did not see it (three folds)"
+
+    @property
+    def informative(self) -> int:
+        """Number of groups that the declared model misses by more than their noise explains."""
+        return sum(b > ERRORS * n for b, n in zip(self.before, self.noise, strict=True))
 
     @property
     def before_rms(self) -> float:

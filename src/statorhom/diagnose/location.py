@@ -11,6 +11,7 @@ from statorhom.diagnose.features import Feature
 from statorhom.diagnose.opposite import likeliest_first
 from statorhom.physics.candidate import Candidate
 from statorhom.results.diagnosis import Location
+from statorhom.study.study_file import FREE
 
 UNTOLD = 0.5  # rad: standard deviation from which on an angle is not known
 TOLD = 3.0  # standard deviations of a split from which on it tells an angle
@@ -19,9 +20,9 @@ TOLD = 3.0  # standard deviations of a split from which on it tells an angle
 def located(explanation: Explanation, number: int) -> Location | None:
     """Location of one of the explanation's effects; None where it has none."""
     candidate = explanation.candidates[number]
-    if not any(p.located for p in candidate.parameters):
-        return None
     r = explanation.refit
+    if not any(p.located for p in candidate.parameters) or not _tells_places(explanation, number):
+        return None
     values = r.hypothesis.effect_values(r.z)[number]
     sd = _deviations(explanation, number)
     angle, place = values.get("angle_rad"), values.get("z_m")
@@ -36,6 +37,18 @@ def located(explanation: Explanation, number: int) -> Location | None:
         angle_ambiguity_deg=degrees,
         z_mm=None if place is None else 1e3 * place,
         z_sd_mm=None if place is None else 1e3 * min(sd["z_m"], candidate.parameters[-1].upper),
+    )
+
+
+def _tells_places(explanation: Explanation, number: int) -> bool:
+    """Whether a test that sees the effect has shapes or a support: bare frequencies of a free ring tell no place."""
+    r = explanation.refit
+    action = r.hypothesis.actions(r.z)[number]
+    return any(
+        (test.support != FREE or test.splits or test.shapes is not None)
+        and action.touches(stage.name, test.name)
+        for stage in r.hypothesis.study.stages
+        for test in stage.tests
     )
 
 

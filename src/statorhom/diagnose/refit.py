@@ -16,6 +16,7 @@ ROUNDS = 2  # of pairing anew
 ITERATIONS = 12
 SETTLED = 0.05  # decrease of the objective that no longer matters
 LARGEST_STEP = 2.0  # in prior standard deviations
+UNIFORM = 2 * np.pi / 12  # precision of a normal density that is as high as the uniform one
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,10 +53,24 @@ class Refit:
     def log_evidence(self) -> float:
         """Laplace's, up to what all hypotheses share."""
         weights = self.hypothesis.prior_weights
-        uniform = float(np.sum(weights == 0.0))
-        _, logdet = np.linalg.slogdet(self.precision + 1e-6 * np.diag(1.0 - weights))
-        # a uniform coordinate has the density 1/√12 over its range in internal units
-        return -0.5 * self.objective - 0.5 * float(logdet) + uniform * 0.5 * float(np.log(2 * np.pi / 12))
+        return -0.5 * self.objective + log_volume(self.jacobian.T @ self.jacobian, weights)
+
+
+def log_volume(information: FloatArray, weights: FloatArray) -> float:
+    """ln of the posterior's volume over the prior's, Laplace's.
+
+    A uniform coordinate has the density 1/√12 over its range in internal units; what the data do not tell of it keeps
+    the prior's volume and gains nothing: the precision is never below 2π/12.
+
+    Parameters
+    ----------
+    information : JᵀJ.
+    weights : precision of the prior, 0 where it is uniform.
+    """
+    uniform = weights == 0.0
+    precision = information + np.diag(np.where(uniform, UNIFORM, weights))
+    _, logdet = np.linalg.slogdet(precision)
+    return -0.5 * float(logdet) + 0.5 * float(uniform.sum()) * float(np.log(UNIFORM))
 
 
 def refit(hypothesis: Hypothesis, start: FloatArray, rounds: int = ROUNDS) -> Refit:

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from statorhom.diagnose.decision import OVER_NOTHING, OVER_OTHERS
 from statorhom.diagnose.explanations import Explanation
-from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.refit import UNIFORM, Refit, log_volume
 
 FloatArray = npt.NDArray[np.float64]
 FACTORS = (0.5, 1.0, 2.0)  # of prior widths and of standard deviations
@@ -17,46 +18,62 @@ KEPT = 0.8  # of the modes in each draw
 
 
 def stability(explanations: Sequence[Explanation], seed: int) -> float:
-    """Share of resamplings that the first of the explanations wins.
+    """Share of resamplings that the first of the explanations wins, of those in which something is detected.
+
+    Without the few modes that show an effect nothing is detected: that is no other winner. Neither is a rival that
+    does not lead by more than what tells two explanations apart.
 
     Parameters
     ----------
     explanations : the winner, "nothing" and the best others.
     """
-    if len(explanations) < 2:
+    if len(explanations) < 3:
         return 1.0
     groups = [[f.group for f in e.refit.hypothesis.features(e.refit.z)] for e in explanations]
     residuals = [e.refit.hypothesis.residuals(e.refit.z) for e in explanations]
     names = sorted({g for part in groups for g in part}, key=str)
     rng = np.random.default_rng(seed)
-    wins = 0
-    total = 0
+    outcomes = []
     for draw in range(DRAWS):
         kept = set(rng.permutation(len(names))[: max(2, round(KEPT * len(names)))].tolist())
         chosen = {name for i, name in enumerate(names) if i in kept}
-        noise = FACTORS[draw % 3]
-        width = FACTORS[(draw // 3) % 3]
+        noise, width = FACTORS[draw % 3], FACTORS[(draw // 3) % 3]
         scores = []
         for e, own, r in zip(explanations, groups, residuals, strict=True):
             rows = np.array([g in chosen for g in own])
             # an explanation's features may differ in number; what it says beside them is common to all
-            scores.append(_evidence(e.refit, r, rows, noise, width) + e.log_evidence - e.refit.log_evidence)
-        wins += int(np.argmax(scores)) == 0
-        total += 1
-    return wins / total
+            scores.append(
+                resampled_evidence(e.refit, r, rows, noise, width) + e.log_evidence - e.refit.log_evidence
+            )
+        outcomes.append(wins(scores))
+    counted = [won for won in outcomes if won is not None]
+    return float(np.mean(counted)) if counted else 1.0
 
 
-def _evidence(
+def wins(scores: Sequence[float]) -> bool | None:
+    """Whether the first wins; None where nothing is detected. The second is "nothing", the rest are rivals."""
+    first, none, rival = scores[0], scores[1], max(scores[2:])
+    if max(first, rival) - none <= OVER_NOTHING:
+        return None
+    return rival - first <= OVER_OTHERS
+
+
+def resampled_evidence(
     r: Refit, residuals: FloatArray, rows: npt.NDArray[np.bool_], noise: float, width: float
 ) -> float:
-    """Laplace evidence with some rows, other noise and other prior widths, after one Gauss–Newton step."""
+    """Laplace evidence with some rows, other noise and other prior widths, after one Gauss–Newton step.
+
+    Where the refit ended on a bound or where its model bends, the gradient with all rows is not zero. It is taken off,
+    so that with all rows and factors of one the optimum stays where it is and the evidence is the refit's own.
+    """
     J, e = r.jacobian[rows] / noise, residuals[rows] / noise
-    weights = r.hypothesis.prior_weights / width**2
-    H = J.T @ J + np.diag(weights + 1e-9)
-    step = -np.linalg.solve(H, J.T @ e + weights * r.z)
+    prior = r.hypothesis.prior_weights
+    weights = prior / width**2
+    rest = (r.jacobian.T @ residuals + prior * r.z) / noise**2
+    information = J.T @ J
+    hessian = information + np.diag(np.where(prior > 0.0, weights, UNIFORM))
+    step = -np.linalg.solve(hessian, J.T @ e + weights * r.z - rest)
     left, z = e + J @ step, r.z + step
-    objective = float(left @ left + np.sum(weights * z**2))
-    _, logdet = np.linalg.slogdet(H)
-    uniform = float(np.sum(weights == 0.0))
-    scale = -float(np.sum(weights > 0.0)) * float(np.log(width))
-    return -0.5 * objective - 0.5 * float(logdet) + scale + 0.5 * uniform * float(np.log(2 * np.pi / 12))
+    objective = float(left @ left + np.sum(weights * z**2) - 2 * step @ rest) + r.hypothesis.missed
+    scale = -float(np.sum(prior > 0.0)) * float(np.log(width))
+    return -0.5 * objective + log_volume(information, weights) + scale

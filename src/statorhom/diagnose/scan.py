@@ -135,7 +135,7 @@ def _choices(study: StudyModel, parameter: EffectParameter) -> list[float]:
 
 
 def _change(base: Refit, candidate: Candidate, start: FloatArray) -> FloatArray | None:
-    """Residuals with the effect minus those without, pairing held; None where it changes who is whose partner."""
+    """Residuals with the effect minus those without, pairing held; None where no stator has the effect."""
     hypothesis = base.hypothesis
     acted = Hypothesis(
         hypothesis.study, (candidate,), hypothesis.left_out, hypothesis.held, hypothesis.missed
@@ -145,6 +145,10 @@ def _change(base: Refit, candidate: Candidate, start: FloatArray) -> FloatArray 
     except (StatorhomError, KeyError):
         return None
     without = hypothesis.features(base.z)
-    if [f.lost for f in with_effect] != [f.lost for f in without]:
-        return None
-    return np.array([a.residual - b.residual for a, b in zip(with_effect, without, strict=True)])
+    # a mode that vanishes with the effect is a jump that says nothing of its signature
+    return np.array(
+        [
+            0.0 if a.lost or b.lost else a.residual - b.residual
+            for a, b in zip(with_effect, without, strict=True)
+        ]
+    )
