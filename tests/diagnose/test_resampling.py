@@ -38,19 +38,6 @@ def test_a_normal_coordinate_shrinks_from_prior_to_posterior() -> None:
     assert log_volume(np.diag([99.0]), np.array([1.0])) == pytest.approx(-0.5 * np.log(100.0))
 
 
-def test_with_all_data_the_evidence_is_the_refit_s_own_even_on_a_bound() -> None:
-    """A gradient that the refit could not follow must not be followed by a resampling."""
-    rng = np.random.default_rng(1)
-    J, residuals, z = rng.normal(size=(9, 3)), rng.normal(size=9), np.array([0.5, -2.0, 0.1])
-    weights = np.array([1.0, 1.0, 0.0])
-    objective = float(residuals @ residuals + np.sum(weights * z**2)) + 4.0
-    hypothesis = SimpleNamespace(prior_weights=weights, missed=4.0)
-    refit = Refit(hypothesis, z, J, float(residuals @ residuals), objective)  # type: ignore[arg-type]
-    every = np.ones(9, dtype=bool)
-    assert resampled_evidence(refit, residuals, every, 1.0, 1.0) == pytest.approx(refit.log_evidence)
-    assert resampled_evidence(refit, residuals, every, 0.5, 1.0) < refit.log_evidence
-
-
 def test_a_linear_model_is_resampled_exactly() -> None:
     """At the optimum of a linear model: the evidence without rows is that of a fit without them."""
     rng = np.random.default_rng(2)

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from statorhom.diagnose.decision import OVER_NOTHING, OVER_OTHERS
 from statorhom.diagnose.explanations import Explanation
-from statorhom.diagnose.refit import UNIFORM, Refit, log_volume
+from statorhom.diagnose.refit import Refit, log_volume
 
 FloatArray = npt.NDArray[np.float64]
 FACTORS = (0.5, 1.0, 2.0)  # of prior widths and of standard deviations
@@ -61,19 +61,13 @@ def wins(scores: Sequence[float]) -> bool | None:
 def resampled_evidence(
     r: Refit, residuals: FloatArray, rows: npt.NDArray[np.bool_], noise: float, width: float
 ) -> float:
-    """Laplace evidence with some rows, other noise and other prior widths, after one Gauss–Newton step.
-
-    Where the refit ended on a bound or where its model bends, the gradient with all rows is not zero. It is taken off,
-    so that with all rows and factors of one the optimum stays where it is and the evidence is the refit's own.
-    """
+    """Laplace evidence with some rows, other noise and other prior widths, after one Gauss–Newton step."""
     J, e = r.jacobian[rows] / noise, residuals[rows] / noise
     prior = r.hypothesis.prior_weights
     weights = prior / width**2
-    rest = (r.jacobian.T @ residuals + prior * r.z) / noise**2
     information = J.T @ J
-    hessian = information + np.diag(np.where(prior > 0.0, weights, UNIFORM))
-    step = -np.linalg.solve(hessian, J.T @ e + weights * r.z - rest)
+    step = -np.linalg.solve(information + np.diag(weights + 1e-9), J.T @ e + weights * r.z)
     left, z = e + J @ step, r.z + step
-    objective = float(left @ left + np.sum(weights * z**2) - 2 * step @ rest) + r.hypothesis.missed
+    objective = float(left @ left + np.sum(weights * z**2)) + r.hypothesis.missed
     scale = -float(np.sum(prior > 0.0)) * float(np.log(width))
     return -0.5 * objective + log_volume(information, weights) + scale
