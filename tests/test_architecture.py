@@ -120,3 +120,9 @@ def test_no_machine_or_case_is_known_by_name(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     for name in ("van-der-giet", "550w", "machine-a", "p1-clean", "p7-clean"):
         assert name not in text.replace("measurements/van-der-giet-550w/study.toml", "")
+
+
+def test_no_two_test_files_share_a_name() -> None:
+    """Pytest imports them by name alone: one of two would not be collected."""
+    names = [path.name for path in Path(__file__).parent.rglob("test_*.py")]
+    assert sorted(names) == sorted(set(names))
