@@ -105,3 +105,12 @@ def test_any_dimensions_fill_the_core_or_are_refused(dimensions):
     ring = d.half_pitch / 2 * (d.outer_radius**2 - d.bore_radius**2)
     assert all(section.area(patch) > 0 for patch in section.patches)
     assert sum(section.area(patch) for patch in section.patches) == pytest.approx(ring, rel=1e-9)
+
+
+def test_a_tip_whose_underside_cuts_into_the_bore_is_refused():
+    """Three wide tips on a small bore: the chord from tooth to opening dips below the bore's arc."""
+    slots = {"shape": "semi_closed", "count": 3, "tooth_width_mm": 7.85, "opening_width_mm": 3.925}
+    slots |= {"tip_height_mm": 0.3125, "wedge_height_mm": 0.3125}
+    core = {"outer_diameter_mm": 40.0, "bore_diameter_mm": 30.0, "length_mm": 40.0, "yoke_thickness_mm": 2.5}
+    with pytest.raises(GeometryError, match=r"slots.tip_height_mm.*slots.count"):
+        stator(slots, core=core, winding=None, frame=None, machine=None)

@@ -6,7 +6,7 @@ import math
 
 from statorhom.errors import GeometryError
 from statorhom.geometry.dimensions import StatorDimensions
-from statorhom.geometry.section import ORIGIN, Edge, Patch, Section, polar
+from statorhom.geometry.section import ORIGIN, Edge, Patch, Point, Section, polar
 from statorhom.geometry.slots.open_slot import check_teeth_fit, tooth_side_angle
 from statorhom.study.geometry_file import SemiClosedSlots
 
@@ -44,6 +44,7 @@ def semi_closed(d: StatorDimensions, keys: SemiClosedSlots, where: str) -> Secti
         for level in angles
         for i, column in enumerate(COLUMNS)
     }
+    _check_tip(d, keys, (points["tip.side"], points["tip.edge"]), where)
     return Section(points, _edges(sloped=high > low), _patches(), tuple(f"back.{c}" for c in COLUMNS))
 
 
@@ -76,6 +77,22 @@ def _patches() -> tuple[Patch, ...]:
         patch("slot behind the opening", "tip", "bottom", 2, "winding", True),
         *(patch(f"yoke {i}", "bottom", "back", i, "lamination", False) for i in range(3)),
     )
+
+
+def _check_tip(
+    d: StatorDimensions, keys: SemiClosedSlots, underside: tuple[Point, Point], where: str
+) -> None:
+    """Refuse a tip so wide that its straight underside cuts into the bore."""
+    (x0, y0), (x1, y1) = underside
+    along = x1 - x0, y1 - y0
+    length = math.hypot(*along)
+    share = min(1.0, max(0.0, -(x0 * along[0] + y0 * along[1]) / length**2))
+    nearest = math.hypot(x0 + share * along[0], y0 + share * along[1])
+    if keys.wedge_height_mm > 0.0 and nearest <= d.bore_radius:
+        raise GeometryError(
+            f"{where}: slots.tip_height_mm = {keys.tip_height_mm:g} is too little for tips as wide as "
+            f"slots.count = {d.slots} makes them: their underside would cut into the bore; raise the tip"
+        )
 
 
 def _check(d: StatorDimensions, keys: SemiClosedSlots, half: float, tip_radius: float, where: str) -> None:
