@@ -11,6 +11,7 @@ from statorhom.diagnose.broken_response import Response, responses
 from statorhom.diagnose.dimension_response import dimension_shift
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
+from statorhom.identify.stage_problem import NamedByMode, seen
 from statorhom.materials.hooke import Hooke
 from statorhom.model.affine import Material, Materials, hooke_coefficients
 from statorhom.model.convergence import ModeKey, mode_keys
@@ -28,7 +29,7 @@ RATE_HZ = (
 
 
 @dataclass(frozen=True, eq=False)
-class PredictedMode:
+class PredictedMode(NamedByMode):
     """One named mode.
 
     Parameters
@@ -51,24 +52,8 @@ class PredictedMode:
         return float(np.exp(self.log_f))
 
     @property
-    def order(self) -> int | None:
-        return self.mode.order
-
-    @property
-    def axial(self) -> int | None:
-        return self.mode.axial
-
-    @property
-    def kind(self) -> str:
-        return self.mode.kind
-
-    @property
     def visibility(self) -> float:
-        return min(1.0, self.mode.visibility / 0.05)
-
-    @property
-    def multiplicity(self) -> int:
-        return self.mode.multiplicity
+        return seen(self.mode)
 
 
 def acted_materials(

@@ -28,14 +28,10 @@ SEEN = 0.05  # visibility from which on a mode is no unlikely partner
 FOUND, HALF_FOUND = 0.8, 0.1
 
 
-@dataclass(frozen=True)
-class CorrectedMode:
-    """A simulated mode at its mesh-corrected frequency, as the pairing wants it."""
+class NamedByMode:
+    """Something that is known by the names of the simulated mode that it holds."""
 
     mode: StatorMode
-    key: ModeKey | None
-    frequency_hz: float
-    visibility: float
 
     @property
     def order(self) -> int | None:
@@ -54,6 +50,21 @@ class CorrectedMode:
         return self.mode.multiplicity
 
 
+@dataclass(frozen=True)
+class CorrectedMode(NamedByMode):
+    """A simulated mode at its mesh-corrected frequency, as the pairing wants it."""
+
+    mode: StatorMode
+    key: ModeKey | None
+    frequency_hz: float
+    visibility: float
+
+
+def seen(mode: StatorMode) -> float:
+    """Visibility as the pairing counts it, 1 from `SEEN` on."""
+    return min(1.0, mode.visibility / SEEN)
+
+
 def corrected(modes: Sequence[StatorMode], error: ModelError, shift: float = 0.0) -> list[CorrectedMode]:
     """Modes with their mesh factor and the shared shift (in its standard deviations) applied."""
     keys = {id(mode): key for key, mode in mode_keys(modes).items()}
@@ -61,7 +72,7 @@ def corrected(modes: Sequence[StatorMode], error: ModelError, shift: float = 0.0
     for mode in modes:
         key = keys.get(id(mode))
         factor = 1.0 if key is None else error.factor(key) * (1.0 + shift * error.shared(key))
-        found.append(CorrectedMode(mode, key, mode.frequency_hz * factor, min(1.0, mode.visibility / SEEN)))
+        found.append(CorrectedMode(mode, key, mode.frequency_hz * factor, seen(mode)))
     return found
 
 
