@@ -6,9 +6,11 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
+from blind_machines import machine
 
 MACHINES = 24
-FEW_SLOTS = (0, 3, 9, 12, 16, 19)  # machines of 24 slots: what rattles in an arc takes minutes with more
+SERIES = 1000  # between the numbers of one series and the next
+FEWEST_SLOTS = 24  # what rattles in an arc takes minutes with more
 STRENGTHS = (0.15, 0.4, 0.65, 0.9)
 STEEL = ("attached_mass", "local_stiffness", "ovality", "suspension_stiffness")
 WINDING = ("end_winding_stiffness", "loose_winding_mass", "viscoelastic_winding")
@@ -77,19 +79,26 @@ class BlindCase:
         return f"case-{self.number:04d}"
 
 
-def blind_cases(count: int | None = None) -> tuple[BlindCase, ...]:
-    """The first `count` cases, all by default; any beginning of the list holds all groups in about equal shares."""
+def blind_cases(count: int | None = None, series: int = 0) -> tuple[BlindCase, ...]:
+    """The first `count` cases, all by default; any beginning of the list holds all groups in about equal shares.
+
+    Parameters
+    ----------
+    count : how many.
+    series : 0 is the benchmark; others have the same effects in other machines with other draws, to develop on.
+    """
     groups = [_singles(), _nothing(), _outside(), _doubles(), _ambiguous()]
     placed = [
         ((i + 0.5) / len(group), g, row) for g, group in enumerate(groups) for i, row in enumerate(group)
     ]
     rows = [row for _, _, row in sorted(placed, key=lambda p: p[:2])]
     cases = []
-    for number, row in enumerate(rows[:count], start=1):
+    for number, row in enumerate(rows[:count], start=1 + SERIES * series):
         rng = np.random.default_rng([5, number])
-        choice = FEW_SLOTS if "interface_debond" in row["effects"] else range(MACHINES)  # type: ignore[operator]
-        machine = int(rng.choice(list(choice)))
-        cases.append(BlindCase(number=number, machine=machine, **row))  # type: ignore[arg-type]
+        choice = list(range(MACHINES * series, MACHINES * (series + 1)))
+        if "interface_debond" in row["effects"]:  # type: ignore[operator]
+            choice = [n for n in choice if machine(n)["slots"]["count"] == FEWEST_SLOTS]
+        cases.append(BlindCase(number=number, machine=int(rng.choice(choice)), **row))  # type: ignore[arg-type]
     return tuple(cases)
 
 

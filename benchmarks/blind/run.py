@@ -25,6 +25,8 @@ def main() -> None:
     parser.add_argument("--cases", type=int, default=None, help="how many of the list; all by default")
     parser.add_argument("--group", default=None, help="only single, nothing, outside, double or ambiguous")
     parser.add_argument("--kind", choices=("tables", "frfs"), default=None, help="only cases with these data")
+    parser.add_argument("--series", type=int, default=0, help="other machines and draws than the benchmark's")
+    parser.add_argument("--make", action="store_true", help="make the cases and do nothing else")
     parser.add_argument("--work", type=Path, default=ROOT / "blind-work", help="folder of cases and runs")
     parser.add_argument("--figures", type=Path, default=ROOT / "benchmarks" / "figures" / "blind")
     parser.add_argument("--jobs", type=int, default=1)
@@ -33,11 +35,14 @@ def main() -> None:
     work = Work(options.work)
     cases = [
         case
-        for case in blind_cases(options.cases)
+        for case in blind_cases(options.cases, options.series)
         if options.group in (None, case.group) and options.kind in (None, "tables" if case.tables else "frfs")
     ]
     if not options.score:
         each("made", make, work, cases, options.jobs)
+    if options.make:
+        return
+    if not options.score:
         each("diagnosed", diagnose, work, cases, options.jobs)
     rows = [row for case in cases if (row := scored(work, case)) is not None]
     print(write_report(rows, options.figures))
