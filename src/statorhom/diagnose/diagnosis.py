@@ -160,7 +160,7 @@ def _evidence(
         over_nothing=over,
         over_others=float(own - next_best) if np.isfinite(next_best) else float("inf"),
         held_out=unseen,
-        adequacy=best.adequacy,
+        adequacy=best.adequacy_but_one,
         nothing_adequacy=none.adequacy,
         within=within_bounds(best),
         stability=stability([common, none, *rest[: COMPARED - 2]], seed),

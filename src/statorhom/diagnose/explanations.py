@@ -24,6 +24,8 @@ WORTH = 2.0  # gain of the scan below which an effect is not refitted
 MOST = 12  # candidates that are refitted
 RELABELLED = 4
 ADEQUATE = 0.01  # chance of a misfit above which nothing is left to explain
+ROWS = 8  # of which one may be grossly wrong
+DRAWS = 4000
 POOR = 3.0  # squared residual per feature above which another valley is looked for
 
 
@@ -54,10 +56,25 @@ class Explanation:
         What is known of the constants counts like a measurement; how large an effect usually is does not: for that
         there are physical limits.
         """
+        return float(chi2.sf(self._misfit, max(len(self.refit.jacobian), 1)))
+
+    @property
+    def adequacy_but_one(self) -> float:
+        """The same without the worst row, against the chance of such a rest: one gross error is no missing physics."""
+        r = self.refit
+        rows, worst = len(r.jacobian), float(np.max(r.hypothesis.residuals(r.z) ** 2, initial=0.0))
+        if rows < ROWS:
+            return self.adequacy
+        draws = np.random.default_rng(0).chisquare(1.0, (DRAWS, rows))
+        rest = draws.sum(axis=1) - draws.max(axis=1)
+        return float(np.mean(rest >= self._misfit - worst))
+
+    @property
+    def _misfit(self) -> float:
         r = self.refit
         effect = slice(r.hypothesis.constants, None)
         unusual = float(np.sum(r.hypothesis.prior_weights[effect] * r.z[effect] ** 2))
-        return float(chi2.sf(r.objective - r.hypothesis.missed - unusual, max(len(r.jacobian), 1)))
+        return r.objective - r.hypothesis.missed - unusual
 
 
 def nothing(base: Refit) -> Explanation:
