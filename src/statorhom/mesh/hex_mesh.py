@@ -20,7 +20,7 @@ def _freeze(mesh: HexMesh) -> None:
             value.setflags(write=False)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HexMesh:
     """A mesh of 20-node hexahedra.
 
@@ -52,7 +52,7 @@ class HexMesh:
         return replace(self, region=region, regions=regions)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HalfPitchMesh(HexMesh):
     """Mesh of half a slot pitch, from the centre of a tooth to the centre of the next slot.
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import scipy.sparse as sp
@@ -35,8 +36,10 @@ class Material:
 
 
 Materials = Mapping[str, Material]
+_ROWS, _COLUMNS = np.array(HOOKE_ENTRIES).T
 
 
+@lru_cache(maxsize=4096)
 def hooke_coefficients(hooke: Hooke) -> np.ndarray:
     """The nine entries C11, C22, C33, C12, C13, C23, C44, C55, C66 (Pa).
 
@@ -47,14 +50,15 @@ def hooke_coefficients(hooke: Hooke) -> np.ndarray:
     """
     matrix = hooke.matrix
     rest = matrix.copy()
-    for i, j in HOOKE_ENTRIES:
-        rest[i, j] = rest[j, i] = 0.0
+    rest[_ROWS, _COLUMNS] = rest[_COLUMNS, _ROWS] = 0.0
     if np.abs(rest).max() > 1e-9 * np.abs(matrix).max():
         raise MaterialError("a region's material must be orthotropic with its axes along r, θ and z")
-    return np.array([matrix[i, j] for i, j in HOOKE_ENTRIES])
+    found = matrix[_ROWS, _COLUMNS]
+    found.setflags(write=False)
+    return np.asarray(found)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class AffineModel:
     """Half a slot pitch before its materials are known.
 
