@@ -20,7 +20,7 @@ def _freeze(mesh: HexMesh) -> None:
             value.setflags(write=False)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HexMesh:
     """A mesh of 20-node hexahedra.
 
@@ -69,7 +69,7 @@ class PartMesh(HexMesh):
         raise NotImplementedError
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HalfPitchMesh(PartMesh):
     """Mesh of half a slot pitch, from the centre of a tooth to the centre of the next slot.
 
