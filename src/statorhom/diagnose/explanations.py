@@ -11,10 +11,8 @@ from scipy.stats import chi2
 
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.mislabelled import worth_trying
-from statorhom.diagnose.prediction import acted_materials
 from statorhom.diagnose.refit import Refit, refit
 from statorhom.diagnose.scan import Scan, Signature
-from statorhom.diagnose.stage_model import mesh_error, with_reference
 from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
 
@@ -98,11 +96,11 @@ def single_effects(
     for signature in found.worth_refitting(MOST, WORTH):
         best = _best_refit(base, _starts_of(found, signature), _solved(explanations))
         if best is not None:
-            explanations.append(_explanation(best, counts))
+            explanations.append(explained(best, counts))
     for candidate in worth_trying(base, discrete)[:RELABELLED]:
         best = _best_refit(base, [(candidate, np.empty(0))], _solved(explanations))
         if best is not None:
-            explanations.append(_explanation(best, counts))
+            explanations.append(explained(best, counts))
     return sorted(explanations, key=lambda e: -e.log_evidence)
 
 
@@ -117,29 +115,14 @@ def with_second(first: Explanation, others: Sequence[Signature], counts: dict[st
     for signature in others:
         start = np.r_[first.refit.z, signature.start]
         hypothesis = Hypothesis(first.refit.hypothesis.study, (*first.candidates, signature.candidate))
-        best = _refitted(hypothesis, start)
+        best = refitted(hypothesis, start)
         if best is not None:
-            found.append(_explanation(best, counts))
+            found.append(explained(best, counts))
     return sorted(found, key=lambda e: -e.log_evidence)
 
 
-def sharpened(explanation: Explanation) -> Explanation:
-    """The same with basis and mesh factors of its own materials: the declared model's may be far from them."""
-    r = explanation.refit
-    hypothesis = r.hypothesis
-    values, actions = hypothesis.study.constants.values(r.z[: hypothesis.constants]), hypothesis.actions(r.z)
-    stages = []
-    for stage in hypothesis.study.stages:
-        materials = acted_materials(hypothesis.study, stage, values, actions)
-        near = with_reference(stage, materials)
-        error = mesh_error(stage.setup, near.ring, materials, stage.density)
-        stages.append(replace(near, error=error))
-    moved = replace(hypothesis, study=hypothesis.study.with_stages(tuple(stages)), held=None)
-    again = _refitted(moved, r.z)
-    return explanation if again is None else replace(explanation, refit=again)
-
-
-def _explanation(best: Refit, counts: dict[str, int]) -> Explanation:
+def explained(best: Refit, counts: dict[str, int]) -> Explanation:
+    """A refit with the prior over the effects' candidates."""
     candidates = best.hypothesis.candidates
     prior = -sum(float(np.log(max(1, counts.get(c.effect, 1)))) for c in candidates)
     return Explanation(candidates, best, best.log_evidence + prior)
@@ -160,18 +143,19 @@ def _best_refit(base: Refit, places: Sequence[tuple[Candidate, np.ndarray]], sol
     for candidate, start in places:
         z = np.r_[base.z, start]
         hypothesis = Hypothesis(base.hypothesis.study, (candidate,), base.hypothesis.left_out)
-        best = _refitted(hypothesis, z)
+        best = refitted(hypothesis, z)
         if not solved and (best is None or best.misfit > POOR * len(best.jacobian)):
             # a wide valley first: partners may change on the way
-            rough = _refitted(replace(hypothesis, discrepancy=COARSE), z)
-            sharp = None if rough is None else _refitted(hypothesis, rough.z)
+            rough = refitted(replace(hypothesis, discrepancy=COARSE), z)
+            sharp = None if rough is None else refitted(hypothesis, rough.z)
             best = min((r for r in (best, sharp) if r), key=lambda r: r.objective, default=None)
         if best is not None:
             found.append(best)
     return min(found, key=lambda r: r.objective, default=None)
 
 
-def _refitted(hypothesis: Hypothesis, z: np.ndarray) -> Refit | None:
+def refitted(hypothesis: Hypothesis, z: np.ndarray) -> Refit | None:
+    """The nearest optimum; None where no stator has the constants of the start."""
     try:
         return refit(hypothesis, z)
     except (StatorhomError, KeyError):
