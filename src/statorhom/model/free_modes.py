@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,9 +10,9 @@ import scipy.sparse as sp
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import AffineModel, Materials
-from statorhom.model.blas_threads import one_blas_thread
-from statorhom.model.eigen import modes_below
-from statorhom.model.harmonic import Harmonic, all_orders, harmonic_spaces
+from statorhom.model.cyclic.modes import modes_of
+from statorhom.model.harmonic import Harmonic, all_orders, spaces_of
+from statorhom.model.pitch_parts import pitch_parts
 from statorhom.model.radial_profile import RadialProfile, node_planes, radial_profile
 from statorhom.model.stator_mode import StatorMode, name_modes
 
@@ -57,7 +56,7 @@ def solve_free(
     highest_hz : upper end of the band.
     orders : harmonics to solve (default: all, 0 … N/2).
     most : lowest modes of each harmonic problem that are enough; None for all of the band.
-    jobs : threads; harmonics are independent, and factorizing one leaves the interpreter to the others.
+    jobs : threads; the modes do not depend on their number.
     """
     return problem_at(model, materials).solve(highest_hz, orders, most, jobs)
 
@@ -87,15 +86,11 @@ class FreeProblem:
     ) -> FreeModes:
         """Modes of the band; see `solve_free`."""
         profile = radial_profile(self.mesh)
+        parts = pitch_parts(self.mesh)
         wanted = all_orders(self.mesh.slots) if orders is None else orders
-
-        def solved(order: int) -> list[_Solved]:
-            spaces = harmonic_spaces(self.mesh, order)
-            return [self._solve_harmonic(space, profile, highest_hz, most) for space in spaces]
-
-        # the limit holds for all threads: entered by each, one would lift another's
-        with one_blas_thread(), ThreadPoolExecutor(max(1, jobs)) as pool:
-            found = [part for parts in pool.map(solved, wanted) for part in parts]
+        spaces = [space for order in wanted for space in spaces_of(parts, order)]
+        pairs = modes_of(parts, self.K, self.M, spaces, highest_hz, most, jobs)
+        found = [_solved(space, profile, *pair) for space, pair in zip(spaces, pairs, strict=True)]
         modes = [mode for i, part in enumerate(found) for mode in self._named(part, i)]
         modes.sort(key=lambda mode: mode.frequency_hz)
         return FreeModes(
@@ -104,15 +99,6 @@ class FreeProblem:
             tuple(part.shape for part in found),
             tuple(part.amplitudes for part in found),
         )
-
-    def _solve_harmonic(
-        self, harmonic: Harmonic, profile: RadialProfile, highest_hz: float, most: int | None
-    ) -> _Solved:
-        values, vectors = modes_below(
-            harmonic.project(self.K), harmonic.project(self.M), highest_hz, most=most
-        )
-        shape = harmonic.expand(vectors) / np.sqrt(harmonic.copies)
-        return _Solved(harmonic, values, shape, profile.orders(harmonic, shape))
 
     def _named(self, part: _Solved, number: int) -> list[StatorMode]:
         count = len(part.values)
@@ -136,6 +122,11 @@ class _Solved:
     values: np.ndarray
     shape: np.ndarray
     amplitudes: np.ndarray
+
+
+def _solved(harmonic: Harmonic, profile: RadialProfile, values: np.ndarray, vectors: np.ndarray) -> _Solved:
+    shape = harmonic.expand(vectors) / np.sqrt(harmonic.copies)
+    return _Solved(harmonic, values, shape, profile.orders(harmonic, shape))
 
 
 def problem_at(model: AffineModel, materials: Materials) -> FreeProblem:
