@@ -10,6 +10,7 @@ import scipy.sparse as sp
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.cyclic.half_pitch import half_pitches
 from statorhom.model.cyclic.modes import modes_of
 from statorhom.model.harmonic import Harmonic, all_orders, spaces_of
 from statorhom.model.pitch_parts import pitch_parts
@@ -89,7 +90,7 @@ class FreeProblem:
         parts = pitch_parts(self.mesh)
         wanted = all_orders(self.mesh.slots) if orders is None else orders
         spaces = [space for order in wanted for space in spaces_of(parts, order)]
-        pairs = modes_of(parts, self.K, self.M, spaces, highest_hz, most, jobs)
+        pairs = modes_of(half_pitches(parts, self.K, self.M), spaces, highest_hz, most, jobs)
         found = [_solved(space, profile, *pair) for space, pair in zip(spaces, pairs, strict=True)]
         modes = [mode for i, part in enumerate(found) for mode in self._named(part, i)]
         modes.sort(key=lambda mode: mode.frequency_hz)

@@ -41,6 +41,12 @@ class Eliminated:
     schur: np.ndarray
     negative: int | None
 
+    def sampled(self, weights: np.ndarray) -> np.ndarray:
+        """Vectors (x, k) with covariance Z_xx⁻¹, which must be definite, from independent weights of unit variance."""
+        # P Z Pᵀ = L D Lᵀ
+        loads = self.lu.L @ (np.sqrt(self.lu.U.diagonal())[:, None] * weights)
+        return np.asarray(self.lu.solve(np.ascontiguousarray(loads[self.lu.perm_r])))
+
 
 def eliminated(pitch: HalfPitch, family: np.ndarray, value: float) -> Eliminated:
     """Eliminate the coordinates `family` (`pitch.a` or `pitch.b`) of K - value M."""

@@ -12,7 +12,8 @@ for Z = K, M or K - λM: the blocks do not depend on h, D₁ and D₂ are diagon
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -44,16 +45,31 @@ class HalfPitch:
         """Numbers of coordinates a, b and s."""
         return len(self.a), len(self.b), len(self.s)
 
+    def stiffened(self, matrix: sp.csr_array) -> HalfPitch:
+        """With a matrix of the half pitch (3 n, 3 n) added to K."""
+        used = _used(self.part)
+        return replace(self, K=sp.csr_array(self.K + self.part.fold(matrix)[used][:, used]))
+
+
+def half_pitches(parts: Iterable[PitchPart], K: sp.csr_array, M: sp.csr_array) -> tuple[HalfPitch, ...]:
+    """Fold the half pitch's matrices K and M (3 n, 3 n) for every part."""
+    return tuple(half_pitch(part, K, M) for part in parts)
+
 
 def half_pitch(part: PitchPart, K: sp.csr_array, M: sp.csr_array) -> HalfPitch:
     """Fold the half pitch's matrices K and M (3 n, 3 n)."""
-    used = np.sort(np.r_[part.inner, part.tooth, part.slot])
+    used = _used(part)
     turns = part.tooth % 3 == 1
     a = np.sort(np.r_[part.inner, part.tooth[~turns]])
     b = np.sort(np.r_[part.inner, part.tooth[turns]])
     places = (np.searchsorted(used, dofs) for dofs in (a, b, part.slot))
     matrices = (sp.csr_array(part.fold(m)[used][:, used]) for m in (K, M))
     return HalfPitch(part, *matrices, *places)
+
+
+def _used(part: PitchPart) -> np.ndarray:
+    """Displacements that carry coordinates, ascending."""
+    return np.sort(np.r_[part.inner, part.tooth, part.slot])
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,31 +106,21 @@ def phases(pitch: HalfPitch, spaces: tuple[Harmonic, ...]) -> Phases:
     return Phases(spaces, first, second, present)
 
 
-def in_space(pitch: HalfPitch, space: Harmonic, vectors: np.ndarray) -> np.ndarray:
-    """Coordinates y of the problem's `Harmonic` (m, …) from coordinates a, b, s (a + b + s, …)."""
-    part = pitch.part
-    real, imaginary, slot = np.split(vectors, np.cumsum(pitch.sizes)[:-1])
-    inner_a, inner_b, tooth_a, tooth_b = _places(pitch)
+def columns(pitch: HalfPitch, space: Harmonic) -> np.ndarray:
+    """Which of the coordinates a, b, s is each coordinate y of the problem's `Harmonic`, (m,)."""
+    part, (count_a, count_b, _) = pitch.part, pitch.sizes
     turns = part.tooth % 3 == 1
-    tooth = np.empty((len(part.tooth), *vectors.shape[1:]))
-    tooth[~turns], tooth[turns] = real[tooth_a], imaginary[tooth_b]
-    if space.parity == "pair":
-        return np.concatenate([real[inner_a], imaginary[inner_b], tooth, slot])
-    phase = plane_phases(part.slot, slot_phase(space.order, space.slots))
-    if space.parity == "even":
-        return np.concatenate([real[inner_a], tooth[~turns], slot[phase.real != 0]])
-    return np.concatenate([imaginary[inner_b], tooth[turns], slot[phase.imag != 0]])
-
-
-def _places(pitch: HalfPitch) -> tuple[np.ndarray, ...]:
-    """Where inner and tooth displacements stand among a and b: inner a, inner b, tooth a, tooth b."""
-    part = pitch.part
-    turns = part.tooth % 3 == 1
+    # where inner and tooth displacements stand among a and b
     dofs_a = np.sort(np.r_[part.inner, part.tooth[~turns]])
     dofs_b = np.sort(np.r_[part.inner, part.tooth[turns]])
-    return (
-        np.searchsorted(dofs_a, part.inner),
-        np.searchsorted(dofs_b, part.inner),
-        np.searchsorted(dofs_a, part.tooth[~turns]),
-        np.searchsorted(dofs_b, part.tooth[turns]),
-    )
+    real, imaginary = np.searchsorted(dofs_a, part.inner), count_a + np.searchsorted(dofs_b, part.inner)
+    tooth = np.empty(len(part.tooth), dtype=int)
+    tooth[~turns] = np.searchsorted(dofs_a, part.tooth[~turns])
+    tooth[turns] = count_a + np.searchsorted(dofs_b, part.tooth[turns])
+    slot = count_a + count_b + np.arange(len(part.slot))
+    if space.parity == "pair":
+        return np.concatenate([real, imaginary, tooth, slot])
+    phase = plane_phases(part.slot, slot_phase(space.order, space.slots))
+    if space.parity == "even":
+        return np.concatenate([real, tooth[~turns], slot[phase.real != 0]])
+    return np.concatenate([imaginary, tooth[turns], slot[phase.imag != 0]])

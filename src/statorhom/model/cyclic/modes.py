@@ -12,16 +12,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import scipy.sparse as sp
 
 from statorhom.errors import SolverError
 from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.cyclic.condensed import Eliminated, condensed, eliminated, modes_under
-from statorhom.model.cyclic.half_pitch import HalfPitch, half_pitch, in_space, phases
+from statorhom.model.cyclic.half_pitch import HalfPitch, columns, phases
 from statorhom.model.cyclic.lanczos import largest
 from statorhom.model.eigen import SHIFT
 from statorhom.model.harmonic import Harmonic
-from statorhom.model.pitch_parts import PitchPart
 
 BATCH = 12  # problems that take their steps together: more would leave nothing for a second thread
 STEP = 1e-4  # how far the counting moves up where the factorization at the band's end is not to be trusted
@@ -33,9 +31,7 @@ Mapper = Callable[..., Any]
 
 
 def modes_of(
-    parts: Sequence[PitchPart],
-    K: sp.csr_array,
-    M: sp.csr_array,
+    pitches: Sequence[HalfPitch],
     spaces: Sequence[Harmonic],
     highest_hz: float,
     most: int | None = None,
@@ -45,8 +41,7 @@ def modes_of(
 
     Parameters
     ----------
-    parts : of the mesh.
-    K, M : (3 n, 3 n) of the half pitch; K semidefinite, M definite.
+    pitches : K and M of every part of the mesh; K semidefinite, M definite.
     spaces : the problems.
     highest_hz : upper end of the band.
     most : lowest modes of each problem that are enough; None for all of the band.
@@ -63,10 +58,10 @@ def modes_of(
     """
     top = (2 * np.pi * highest_hz) ** 2
     groups = []
-    for part in parts:
-        mine = tuple(i for i, space in enumerate(spaces) if space.axial == part.axial)
+    for pitch in pitches:
+        mine = tuple(i for i, space in enumerate(spaces) if space.axial == pitch.part.axial)
         if mine:
-            groups.append(_Group(half_pitch(part, K, M), mine, tuple(spaces[i] for i in mine)))
+            groups.append(_Group(pitch, mine, tuple(spaces[i] for i in mine)))
     # the limit holds for all threads: entered by each, one would lift another's
     with one_blas_thread(), ThreadPoolExecutor(max(1, jobs)) as pool:
         top, ends = _band(pool.map, groups, top, most)
@@ -164,7 +159,9 @@ class _Batch:
         for i, space, (theta, vectors) in zip(self.chosen, spaces, solved, strict=True):
             values = shift + 1 / theta
             kept = np.flatnonzero(values <= self.top)[: self.most]
-            pairs.append((self.group.numbers[i], (values[kept], in_space(pitch, space, vectors[:, kept]))))
+            pairs.append(
+                (self.group.numbers[i], (values[kept], vectors[np.ix_(columns(pitch, space), kept)]))
+            )
         return pairs
 
 
