@@ -35,6 +35,7 @@ from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.next_measurement import next_measurement
 from statorhom.diagnose.one_line_errors import one_line_errors
 from statorhom.diagnose.report_rows import (
+    as_declared,
     constant_rows,
     effect_results,
     feature_rows,
@@ -46,7 +47,7 @@ from statorhom.diagnose.scan import Scan, scan
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.settings import Settings
-from statorhom.physics.action import Action
+from statorhom.physics.declared import DeclaredEffect
 from statorhom.physics.library import all_candidates, library
 from statorhom.results.diagnosis import (
     Alternative,
@@ -83,8 +84,8 @@ def diagnose(
     tests: Mapping[str, MeasuredTest],
     settings: Settings,
     announce: Announce = silent,
-) -> tuple[Diagnosis, Details, tuple[Action, ...]]:
-    """Diagnose a study whose recordings have become tables; the actions are those of the named effects.
+) -> tuple[Diagnosis, Details, tuple[DeclaredEffect, ...]]:
+    """Diagnose a study whose recordings have become tables; named effects come as a study would declare them.
 
     Raises
     ------
@@ -96,9 +97,8 @@ def diagnose(
         found = _find(files, geometry, tests, settings, announce)
         diagnosis = _diagnosis(files, found)
         details = _details(found, time.perf_counter() - began)
-        best = found.best.refit
-        actions = best.hypothesis.actions(best.z) if found.verdict == "named" else ()
-    return diagnosis, details, actions
+        named = as_declared(found.best) if found.verdict == "named" else ()
+    return diagnosis, details, named
 
 
 def _find(

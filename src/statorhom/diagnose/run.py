@@ -37,8 +37,8 @@ def diagnose_study(
     check_folder(folder)
     geometry = stator_geometry(files.geometry, files.geometry_path)
     files, tests = measured_tests(files, folder, announce)
-    diagnosis, details, actions = diagnose(files, geometry, tests, settings, announce)
+    diagnosis, details, named = diagnose(files, geometry, tests, settings, announce)
     write_diagnosis(diagnosis, details, folder)
-    if apply and actions:
-        write_amended(files, actions, folder)
+    if apply and named:
+        write_amended(files, named, folder)
     return diagnosis, details
