@@ -122,17 +122,13 @@ def _candidate(files: StudyFiles, stage: str, where: str, effect: Effect, keys: 
         others = sorted({c.stage for c in effect.candidates(files)})
         remedy = f"it can be in {', '.join(others)}" if others else "delete it"
         raise input_error(files.path, where, f"{effect.name} cannot be in stage {quoted(stage)}", remedy)
-    parameters = [_typed(p.name)[0] for p in possible[0].parameters]
-    known = [*parameters, *(name for name, _ in possible[0].choice)]
+    choices = list(dict.fromkeys(name for c in possible for name, _ in c.choice))
+    known = [*dict.fromkeys(_typed(p.name)[0] for c in possible for p in c.parameters), *choices]
     for key in keys.values:
         if key not in known:
-            raise input_error(
-                files.path,
-                where,
-                f"unknown key {quoted(key)}",
-                hint(key, ["effect", "region", "test", *known]),
-            )
-    for key in (*[n for n, _ in possible[0].choice], "region", "test"):
+            names = ["effect", "region", "test", *known]
+            raise input_error(files.path, where, f"unknown key {quoted(key)}", hint(key, names))
+    for key in (*choices, "region", "test"):
         possible = _narrowed(files, where, possible, keys, key)
     return possible[0]
 
@@ -143,13 +139,13 @@ def _narrowed(
     """Candidates that agree with a key of the table; one that is left open must be the same for all."""
 
     def said(candidate: Candidate) -> object:
-        return getattr(candidate, key) if key in ("region", "test") else candidate.chosen[key]
+        return getattr(candidate, key) if key in ("region", "test") else candidate.chosen.get(key)
 
     given = getattr(keys, key) if key in ("region", "test") else keys.values.get(key)
     options = list(dict.fromkeys(said(c) for c in possible))
     if given is None and len(options) == 1:
         return list(possible)
-    named = ", ".join(quoted(o) for o in options)
+    named = ", ".join(quoted(o) for o in options if o is not None)
     if given is None:
         raise input_error(files.path, f"{where}.{key}", "is missing", f"add it: one of {named}")
     if given not in options:
