@@ -10,9 +10,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from statorhom.errors import ResultsError
 from statorhom.physics.action import Action
 from statorhom.physics.declared import DeclaredEffect, effect_table
 from statorhom.study.atomic import write_text
+from statorhom.study.message import one_line
 from statorhom.study.study import StudyFiles
 from statorhom.study.toml_text import toml_text
 
@@ -32,6 +34,22 @@ def write_amended(files: StudyFiles, named: Sequence[DeclaredEffect], folder: Pa
     path = folder / "study.toml"
     write_text(path, toml_text(study))
     return path
+
+
+def check_not_the_study(files: StudyFiles, folder: Path) -> None:
+    """Refuse to write the amended study over the study itself.
+
+    Raises
+    ------
+    ResultsError
+        If the results folder is the study's own.
+    """
+    if folder.resolve() == files.path.parent.resolve():
+        raise ResultsError(
+            one_line(
+                f"{folder}: is the study's own folder; choose another --out, for --apply writes study.toml there"
+            )
+        )
 
 
 def _declare(study: Toml, effect: DeclaredEffect) -> None:
@@ -64,6 +82,7 @@ def _amend(study: Toml, files: StudyFiles, action: Action, folder: Path) -> bool
         own = {r: s for r, s in action.symmetries.items() if r in stage.get("model", {})}
         if own:
             stage["model"] |= own
+            _forget(stage, own)
     for support in study.get("supports", ()):
         if support["name"] in action.supports:
             support.update(action.supports[support["name"]].model_dump(mode="json", exclude_none=True))
@@ -73,6 +92,14 @@ def _amend(study: Toml, files: StudyFiles, action: Action, folder: Path) -> bool
         _relabel(study, files, (test, label), (order, axial), folder)
     said = (action.masses, action.symmetries, action.supports, action.dimensions, action.names)
     return any(said)
+
+
+def _forget(stage: Toml, regions: Mapping[str, str]) -> None:
+    """Constants of the former symmetry that were prescribed or expected have no meaning any more."""
+    for said in stage.get("identify", {}).values():
+        if isinstance(said, dict):
+            for region in regions:
+                said.pop(region, None)
 
 
 def _geometry(files: StudyFiles, dimensions: Mapping[str, float], folder: Path) -> str:
