@@ -28,7 +28,9 @@ from statorhom.study.study_file import FREE
 FloatArray = npt.NDArray[np.float64]
 STEP = 1e-3  # of internal coordinates
 LOG_STEP = 1e-6  # of ln f
-KINDS = frozenset({"frequency", "split", "shift", "density"})  # what follows the constants as this module says
+KINDS = frozenset(
+    {"frequency", "split", "shift", "density"}
+)  # what follows the constants as this module says
 
 
 def by_frequency(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Feature]) -> dict[int, FloatArray]:
