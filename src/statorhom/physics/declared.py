@@ -71,8 +71,9 @@ def effect_table(candidate: Candidate, values: Mapping[str, float]) -> dict[str,
             table[key] = place
     table |= dict(candidate.choice)
     for p in candidate.parameters:
-        key, unit = _typed(p.name)
-        table[key] = values[p.name] / unit
+        if p.name in values or p.usual is None:
+            key, unit = _typed(p.name)
+            table[key] = values[p.name] / unit
     return table
 
 
@@ -155,7 +156,7 @@ def _narrowed(
 
 def _value(files: StudyFiles, where: str, keys: EffectKeys, parameter: EffectParameter) -> float:
     key, unit = _typed(parameter.name)
-    given = keys.values.get(key)
+    given = keys.values.get(key, None if parameter.usual is None else parameter.usual / unit)
     if given is None:
         raise input_error(files.path, f"{where}.{key}", "is missing", "add this key")
     if isinstance(given, str):

@@ -16,7 +16,8 @@ from statorhom.study.study import StudyFiles
 
 # Terminal boxes, lugs and weights: how high their centre of gravity lies decides how much the tangential motion, and
 # with it the split of the lowest orders, counts; the mass is not known better than that.
-HEIGHT_MM = EffectParameter("cog_height_mm", 3.0, 20.0, 0.5, 60.0, "log", (8.0,), None)
+USUAL_MM = 8.0
+HEIGHT_MM = EffectParameter("cog_height_mm", 3.0, 20.0, 0.5, 60.0, "log", (USUAL_MM,), None, usual=USUAL_MM)
 FOOT = 1.5  # side of the foot over the height of the centre of gravity
 LARGEST = 0.2  # of the stage's mass
 
@@ -31,7 +32,9 @@ class AttachedMass(Effect):
         ),
         Confusion("ovality", "several orders r split"),
     )
-    note = "a rigid cube on a square foot 1.5 times as wide as its centre of gravity is high, not on the scale"
+    note = (
+        "a rigid cube on a square foot 1.5 times as wide as its centre of gravity is high, not on the scale"
+    )
 
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         length = files.geometry.core.length_mm / 1e3
@@ -50,7 +53,7 @@ class AttachedMass(Effect):
 
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
         length = files.geometry.core.length_mm / 1e3
-        above = values["cog_height_mm"] / 1e3
+        above = values.get("cog_height_mm", USUAL_MM) / 1e3
         foot = min(FOOT * above, 0.5 * length)
         z = min(max(values["z_m"], 0.51 * foot), length - 0.51 * foot)
 
