@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import scipy.sparse as sp
 from scipy.linalg import block_diag
 
 from statorhom.model.broken.basis import ProblemBasis, SymmetricBasis
@@ -123,7 +124,10 @@ def statics(basis: SymmetricBasis, attachments: Sequence[Attachment]) -> Statics
     stiffness = block_diag(*[a.stiffness for a in attachments]) if attachments else np.zeros((0, 0))
     mass = block_diag(*[a.mass for a in attachments]) if attachments else np.zeros((0, 0))
     used = _carrying(stiffness, mass)
-    loads = tuple(_loads(problem.sector, attachments, used) for problem in basis.problems)
+    # all problems have the same surface
+    surface = basis.problems[0].sector.surface
+    local = [sp.csr_array(a.points.matrix)[:, surface] for a in attachments]
+    loads = tuple(_loads(problem.sector, attachments, local, used) for problem in basis.problems)
     return Statics(basis, used.T @ stiffness @ used, used.T @ mass @ used, loads)
 
 
@@ -137,11 +141,13 @@ def _carrying(stiffness: np.ndarray, mass: np.ndarray) -> np.ndarray:
     return np.asarray(vectors[:, values > DEPENDENT * values.max(initial=0.0)])
 
 
-def _loads(sector: Sector, attachments: Sequence[Attachment], used: np.ndarray) -> Loads:
+def _loads(
+    sector: Sector, attachments: Sequence[Attachment], surface: Sequence[sp.csr_array], used: np.ndarray
+) -> Loads:
     """Unit loads on the motions; the motion's real part belongs to cosine, its imaginary part to sine shapes."""
     found = [np.zeros((0, len(sector.loaded)), dtype=complex)]
-    for a in attachments:
-        local = a.points.matrix[:, sector.surface] @ sector.moved
+    for a, interpolation in zip(attachments, surface, strict=True):
+        local = interpolation @ sector.moved
         mirrored = np.repeat(a.points.mirrored, 3)[:, None]
         sign = np.tile(_MIRROR, len(a.points))[:, None]
         pitch = np.repeat(a.points.pitch, 3)[:, None]
