@@ -138,6 +138,7 @@ class Study:
         out: str | os.PathLike[str] | None = None,
         *,
         seed: int = 1,
+        jobs: int = 1,
         apply: bool = False,
         announce: Announce = silent,
     ) -> Diagnosis:
@@ -151,7 +152,9 @@ class Study:
             If files, masses or tests do not allow it.
         """
         folder = self.default_folder if out is None else Path(out)
-        found, details = diagnose_study(self.files, folder, Settings(seed=seed), announce, apply=apply)
+        found, details = diagnose_study(
+            self.files, folder, Settings(seed=seed, jobs=jobs), announce, apply=apply
+        )
         write_diagnosis_page(found, details, self.files.geometry.core.length_mm, folder)
         return found
 

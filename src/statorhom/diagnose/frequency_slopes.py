@@ -1,7 +1,7 @@
 """Derivatives by the constants that act through the frequencies: one pass over the features serves all of them.
 
-A feature's residual depends on ln f of its own mode alone, so that moving all modes at once gives every feature's slope,
-and the modes' own slopes by the constants do the rest. The scatter of an order touches that order's splits alone.
+A feature's residual depends on ln f of its own mode alone, so that moving all modes at once gives every feature's
+slope, and the modes' own slopes by the constants do the rest. The scatter of an order touches its splits alone.
 """
 
 from __future__ import annotations
@@ -28,7 +28,9 @@ from statorhom.study.study_file import FREE
 FloatArray = npt.NDArray[np.float64]
 STEP = 1e-3  # of internal coordinates
 LOG_STEP = 1e-6  # of ln f
-KINDS = frozenset({"frequency", "split", "shift", "density"})  # what follows the constants as this module says
+KINDS = frozenset(
+    {"frequency", "split", "shift", "density"}
+)  # what follows the constants as this module says
 
 
 def by_frequency(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Feature]) -> dict[int, FloatArray]:

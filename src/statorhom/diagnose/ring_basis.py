@@ -259,7 +259,9 @@ def affine_terms(model: AffineModel) -> AffineTerms:
     )
 
 
-def _grown(problem: RingProblem, added: np.ndarray, terms: AffineTerms, profile: RadialProfile) -> RingProblem:
+def _grown(
+    problem: RingProblem, added: np.ndarray, terms: AffineTerms, profile: RadialProfile
+) -> RingProblem:
     """The problem with further vectors in its basis; only their products are new."""
     space, old, count = problem.space, problem.basis, added.shape[1]
     if count == 0 and problem.stiffness:
@@ -279,7 +281,12 @@ def _grown(problem: RingProblem, added: np.ndarray, terms: AffineTerms, profile:
         return np.block([[inner, mixed], [mixed.T, own]])
 
     stiffness = {
-        r: np.stack([grown(known[q] if (known := problem.stiffness.get(r)) is not None else None, t) for q, t in enumerate(parts)])
+        r: np.stack(
+            [
+                grown(known[q] if (known := problem.stiffness.get(r)) is not None else None, t)
+                for q, t in enumerate(parts)
+            ]
+        )
         for r, parts in terms.stiffness.items()
     }
     mass = {r: grown(problem.mass.get(r), t) for r, t in terms.mass.items()}

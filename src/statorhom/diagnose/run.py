@@ -36,7 +36,7 @@ def diagnose_study(
     """
     check_folder(folder)
     geometry = stator_geometry(files.geometry, files.geometry_path)
-    files, tests = measured_tests(files, folder, announce)
+    files, tests = measured_tests(files, folder, announce, settings.jobs)
     diagnosis, details, actions = diagnose(files, geometry, tests, settings, announce)
     write_diagnosis(diagnosis, details, folder)
     if apply and actions:
