@@ -95,7 +95,7 @@ def concerns(study: StudyModel, stage: StageModel, constant: str) -> bool:
 def _scatter_columns(
     h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Feature]
 ) -> dict[int, FloatArray]:
-    columns = {}
+    columns: dict[int, FloatArray] = {}
     for part in ("re", "im"):
         own = {
             j: int(name.split()[1])

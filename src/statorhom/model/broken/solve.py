@@ -83,8 +83,8 @@ class BrokenModes:
             local[side] = on_surface[side] @ mirrored[order]
             turn = np.exp(2j * np.pi / slots * (order * points.pitch % slots))
             total += (local * np.repeat(turn, 3)[:, None]).real
-        total = total.reshape(len(points), 3, len(self))
-        return np.where(points.mirrored[:, None, None], _MIRROR[:, None], 1.0) * total
+        sign = np.where(points.mirrored[:, None, None], _MIRROR[:, None], 1.0)
+        return np.asarray(sign * total.reshape(len(points), 3, len(self)))
 
     def _surface_waves(self) -> tuple[dict[int, np.ndarray], dict[int, np.ndarray]]:
         """Per harmonic: (d, modes) complex motion of the surface of a straight half pitch, and of a mirrored one.
