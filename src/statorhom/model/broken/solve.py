@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.stats import chi2
-from threadpoolctl import threadpool_limits
 
 from statorhom.errors import SolverError
+from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.broken.basis import PROBES, SymmetricBasis
 from statorhom.model.broken.change import Change, PieceChange
 from statorhom.model.broken.coupling import Coupled, couple
@@ -142,7 +142,7 @@ def solve_broken(
     SolverError
         If the tolerance cannot be met, or the changes leave a mass or a stiffness that is not definite.
     """
-    with threadpool_limits(limits=1, user_api="blas"):
+    with one_blas_thread():
         if tolerance is None:
             return _within(_solve(basis, changes))
         basis = softened(basis, [c for c in changes if isinstance(c, PieceChange)])
