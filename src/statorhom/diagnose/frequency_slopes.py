@@ -1,7 +1,7 @@
 """Derivatives by the constants that act through the frequencies: one pass over the features serves all of them.
 
-A feature's residual depends on ln f of its own mode alone, so that moving all modes at once gives every feature's slope,
-and the modes' own slopes by the constants do the rest. The scatter of an order touches that order's splits alone.
+A feature's residual depends on ln f of its own mode alone, so that moving all modes at once gives every feature's
+slope, and the modes' own slopes by the constants do the rest. The scatter of an order touches its splits alone.
 """
 
 from __future__ import annotations
@@ -95,7 +95,7 @@ def concerns(study: StudyModel, stage: StageModel, constant: str) -> bool:
 def _scatter_columns(
     h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Feature]
 ) -> dict[int, FloatArray]:
-    columns = {}
+    columns: dict[int, FloatArray] = {}
     for part in ("re", "im"):
         own = {
             j: int(name.split()[1])
