@@ -94,7 +94,9 @@ def _moved(
             parts = [acted_materials(h.study, stage, v, actions, test) for v in (before, after)]
             regions = tuple(parts[0])
             change = material_vector(parts[1], regions) - material_vector(parts[0], regions)
-            slopes = stage.slopes(parts[0], modes)
+            bonded = [key for key, mode in modes.items() if mode.slope is None]
+            own = {key: mode.slope for key, mode in modes.items() if mode.slope is not None}
+            slopes = {**stage.slopes(parts[0], bonded), **own}
             mesh = after[f"{stage.name}:mesh"] - before[f"{stage.name}:mesh"]
             new[test] = dict(modes) | {
                 key: replace(modes[key], log_f=modes[key].log_f + slope @ change + mesh * modes[key].shared)

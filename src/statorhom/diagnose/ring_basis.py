@@ -52,6 +52,15 @@ class RingProblem:
         M = sum(materials[r].density * part for r, part in self.mass.items())
         return np.asarray(K), np.asarray(M)
 
+    def slope(self, q: np.ndarray, value: float, materials: Materials) -> np.ndarray:
+        """What a vector (k,) of a mode of λ = `value` gives to d ln f by Hooke entries and density of all regions."""
+        return np.concatenate(
+            [
+                np.r_[0.5 / value * (self.stiffness[r] @ q @ q), -0.5 * float(q @ self.mass[r] @ q)]
+                for r in materials
+            ]
+        )
+
 
 @dataclass(frozen=True, eq=False)
 class RingModes:
@@ -60,13 +69,20 @@ class RingModes:
     Parameters
     ----------
     modes : sorted by frequency, rigid bodies left out.
+    values : per problem (j,) λ (rad²/s²).
     vectors : per problem (k, j).
     problems : of the basis.
     """
 
     modes: tuple[StatorMode, ...]
+    values: tuple[np.ndarray, ...]
     vectors: tuple[np.ndarray, ...]
     problems: tuple[RingProblem, ...]
+
+    def slope(self, mode: StatorMode, materials: Materials) -> np.ndarray:
+        """d ln f by the Hooke entries and the density of all regions, one after the other."""
+        q = self.vectors[mode.problem][:, mode.column]
+        return self.problems[mode.problem].slope(q, (2 * np.pi * mode.frequency_hz) ** 2, materials)
 
     def log_frequency_gradient(self, mode: StatorMode) -> Gradient:
         """Region → derivative of ln f with respect to its nine Hooke entries and its density."""
@@ -87,7 +103,6 @@ class RingBasis:
     model : on the mesh.
     problems : of the harmonics that matter.
     highest_hz : upper end of the band.
-    contact : stiffness of the half pitch beside the materials' (N/m).
     """
 
     model: AffineModel
@@ -102,26 +117,40 @@ class RingBasis:
         SolverError
             If a mass or stiffness is not definite.
         """
+        return self.solve_matrices([p.matrices(materials) for p in self.problems], materials)
+
+    def solve_matrices(
+        self, matrices: Sequence[tuple[np.ndarray, np.ndarray]], materials: Materials
+    ) -> RingModes:
+        """The same of given K and M (k, k) per problem.
+
+        Raises
+        ------
+        SolverError
+            If a mass or stiffness is not definite.
+        """
         mass = sum(materials[r].density * v for r, v in self.model.volumes.items())
         top = (2 * np.pi * self.highest_hz) ** 2
         found: list[StatorMode] = []
-        vectors = []
+        solved = []
         with one_blas_thread():
-            for number, problem in enumerate(self.problems):
+            for number, (problem, (K, M)) in enumerate(zip(self.problems, matrices, strict=True)):
                 try:
-                    values, x = eigh(*problem.matrices(materials))
+                    values, x = eigh(K, M)
                 except np.linalg.LinAlgError:
                     raise SolverError("the mass of a region must be positive") from None
-                vectors.append(x)
+                solved.append((values, x))
                 count = int(np.count_nonzero(values <= top))
                 found += _named(problem, number, values[:count], x[:, :count], mass)
         found.sort(key=lambda mode: mode.frequency_hz)
-        return RingModes(tuple(found), tuple(vectors), self.problems)
+        values_of, vectors = zip(*solved, strict=True) if solved else ((), ())
+        return RingModes(tuple(found), values_of, vectors, self.problems)
 
-    def extended(self, snapshots: Sequence[Materials]) -> RingBasis:
-        """With the modes at further materials."""
+    def extended(self, snapshots: Sequence[Materials], joints: Sequence[sp.csr_array] = ()) -> RingBasis:
+        """With the modes at further materials, each with every one of some joints of the half pitch (N/m)."""
         profile = radial_profile(self.model.mesh)
-        matrices = [(self.model.stiffness_matrix(m), self.model.mass_matrix(m)) for m in snapshots]
+        bonded = [(self.model.stiffness_matrix(m), self.model.mass_matrix(m)) for m in snapshots]
+        matrices = [(sp.csr_array(K + joint), M) for K, M in bonded for joint in joints] or bonded
         problems = []
         with one_blas_thread():
             for problem in self.problems:
@@ -136,15 +165,19 @@ class RingBasis:
                     for K, M in matrices
                 ]
                 unit = sp.csr_array(space.project(matrices[0][1]))
-                basis = _joined(problem.basis, np.hstack(added), unit)
+                basis = joined(problem.basis, np.hstack(added), unit)
                 problems.append(
-                    _projected(self.model, space, basis, profile.orders(space, space.expand(basis)))
+                    projected(self.model, space, basis, profile.orders(space, space.expand(basis)))
                 )
         return replace(self, problems=tuple(problems))
 
 
 def ring_basis(
-    model: AffineModel, snapshots: Sequence[Materials], highest_hz: float, orders: Sequence[int]
+    model: AffineModel,
+    snapshots: Sequence[Materials],
+    highest_hz: float,
+    orders: Sequence[int],
+    joints: Sequence[sp.csr_array] = (),
 ) -> RingBasis:
     """Bases of the problems with radial motion of some orders.
 
@@ -154,13 +187,14 @@ def ring_basis(
     snapshots : materials whose modes span the bases.
     highest_hz : upper end of the band.
     orders : harmonics.
+    joints : stiffness of the half pitch beside the materials' (N/m), with each of which the snapshots are solved.
     """
     spaces = [s for order in orders for s in harmonic_spaces(model.mesh, order) if s.parity != "odd"]
     empty = tuple(RingProblem(s, np.zeros((s.size, 0)), {}, {}, np.zeros((0, 0))) for s in spaces)
-    return RingBasis(model, empty, highest_hz).extended(snapshots)
+    return RingBasis(model, empty, highest_hz).extended(snapshots, joints)
 
 
-def _joined(basis: np.ndarray, added: np.ndarray, M: sp.csr_array) -> np.ndarray:
+def joined(basis: np.ndarray, added: np.ndarray, M: sp.csr_array) -> np.ndarray:
     """M-orthonormal basis of both."""
     added = added / np.sqrt(np.sum(added * (M @ added), axis=0))
     if basis.shape[1]:
@@ -171,7 +205,8 @@ def _joined(basis: np.ndarray, added: np.ndarray, M: sp.csr_array) -> np.ndarray
     return np.asarray(joined @ (rotation[:, keep] / np.sqrt(values[keep])))
 
 
-def _projected(model: AffineModel, space: Harmonic, basis: np.ndarray, profile: np.ndarray) -> RingProblem:
+def projected(model: AffineModel, space: Harmonic, basis: np.ndarray, profile: np.ndarray) -> RingProblem:
+    """A harmonic problem in a basis."""
     real, imaginary = space.real @ basis, space.imaginary @ basis
 
     def onto(matrix: sp.csr_array) -> np.ndarray:

@@ -24,6 +24,7 @@ class Joint:
     normal, tangential : stiffness of the contact (N/m³).
     arc : centre and width (rad) of the part where it is weaker, None for the same all around.
     ratio : stiffness within the arc over that of the rest.
+    loss_factor : of the contact.
     """
 
     regions: tuple[str, ...]
@@ -31,6 +32,7 @@ class Joint:
     tangential: float
     arc: tuple[float, float] | None = None
     ratio: float = 1.0
+    loss_factor: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
