@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 import scipy.sparse as sp
 
-from statorhom.diagnose.ring_basis import RingBasis, RingProblem, joined, projected
+from statorhom.diagnose.ring_basis import RingBasis, RingProblem, affine_terms, grown, independent
 from statorhom.model.affine import Materials
 from statorhom.model.harmonic import Harmonic, harmonic_spaces
 from statorhom.model.radial_profile import radial_profile
@@ -37,23 +37,27 @@ def with_local_fields(ring: RingBasis, materials: Materials, joint: sp.csr_array
     energy = sp.csr_array(K + WEAK * joint + (2 * np.pi * ring.highest_hz) ** 2 * M)
     named = {p.space.order for p in ring.problems}
     angle = np.repeat(np.arctan2(mesh.nodes[:, 1], mesh.nodes[:, 0]), 3)[:, None]
-    profile = radial_profile(mesh)
+    profile, terms = radial_profile(mesh), affine_terms(model)
     problems = []
     for order in range(min(max(named) + BEYOND, mesh.slots // 2) + 1):
         known = [p for p in ring.problems if p.space.order == order]
-        for space in [p.space for p in known] + _missing(ring, order):
-            own = next((p.basis for p in known if p.space is space), np.zeros((space.size, 0)))
+        for problem in [*known, *_missing(ring, order)]:
+            space = problem.space
             fields = _fields(ring.problems, space, angle)
-            more = _new(own, fields, sp.csr_array(space.project(energy)))
-            basis = joined(own, more, sp.csr_array(space.project(M)))
-            problems.append(projected(model, space, basis, profile.orders(space, space.expand(basis))))
+            more = _new(problem.basis, fields, sp.csr_array(space.project(energy)))
+            added = independent(problem.basis, more, sp.csr_array(space.project(M)))
+            problems.append(grown(problem, added, terms, profile))
     return replace(ring, problems=tuple(problems))
 
 
-def _missing(ring: RingBasis, order: int) -> list[Harmonic]:
-    """Problems of a harmonic that no named mode is of."""
+def _missing(ring: RingBasis, order: int) -> list[RingProblem]:
+    """Problems of a harmonic that no named mode is of, their bases empty."""
     known = {(p.space.axial, p.space.parity) for p in ring.problems if p.space.order == order}
-    return [s for s in harmonic_spaces(ring.model.mesh, order) if (s.axial, s.parity) not in known]
+    return [
+        RingProblem(s, np.zeros((s.size, 0)), {}, {}, np.zeros((0, 0)))
+        for s in harmonic_spaces(ring.model.mesh, order)
+        if (s.axial, s.parity) not in known
+    ]
 
 
 def _fields(problems: tuple[RingProblem, ...], space: Harmonic, angle: np.ndarray) -> np.ndarray:

@@ -18,7 +18,7 @@ from statorhom.model.convergence import ModeKey, mode_keys
 from statorhom.model.stator_mode import StatorMode
 from statorhom.physics.action import Action
 
-KEPT = 32  # responses per stage
+KEPT = 256  # responses per stage
 RATE_HZ = (
     400.0,
     1000.0,
@@ -89,17 +89,30 @@ def material_vector(materials: Materials, regions: Sequence[str]) -> np.ndarray:
     )
 
 
+def slopes_by_materials(
+    stage: StageModel, materials: Materials, modes: Mapping[ModeKey, PredictedMode]
+) -> dict[ModeKey, np.ndarray]:
+    """d ln f of predicted modes by the entries of `material_vector`."""
+    bonded = [key for key, mode in modes.items() if mode.slope is None]
+    own = {key: mode.slope for key, mode in modes.items() if mode.slope is not None}
+    return {**stage.slopes(materials, bonded), **own}
+
+
 def predicted(
     study: StudyModel,
     stage: StageModel,
     values: Mapping[str, float],
     actions: Sequence[Action],
     test: str | None = None,
-    mark: Hashable = None,
+    mark: Sequence[Hashable] | None = None,
 ) -> dict[ModeKey, PredictedMode]:
-    """Named modes of a free test, by key; equal marks say that the actions are the same."""
+    """Named modes of a free test, by key; `mark` has one entry per action: equal ones say that it is the same."""
     materials = acted_materials(study, stage, values, actions, test)
     here = [a for a in actions if a.touches(stage.name, test)]
+    if mark is not None:
+        # what breaks no symmetry may differ
+        pairs = zip(actions, mark, strict=True)
+        mark = tuple(m for a, m in pairs if a.changes and a.touches(stage.name, test))
     base = _base(stage, materials, here)
     shifts = broken_responses(stage, here, None if mark is None else (test, mark))
     mesh = values[f"{stage.name}:mesh"]
