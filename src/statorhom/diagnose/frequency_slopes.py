@@ -1,7 +1,8 @@
 """Derivatives by the constants that act through the frequencies: one pass over the features serves all of them.
 
-A feature's residual depends on ln f of its own mode alone, so that moving all modes at once gives every feature's slope,
-and the modes' own slopes by the constants do the rest. The scatter of an order touches that order's splits alone.
+A feature's residual depends on ln f of its own mode alone, so that moving all modes at once gives every feature's
+slope, and the modes' own slopes by the constants do the rest. The scatter of an order touches that order's splits
+alone, a loss factor of a material the damping alone.
 """
 
 from __future__ import annotations
@@ -33,7 +34,9 @@ from statorhom.study.study_file import FREE
 FloatArray = npt.NDArray[np.float64]
 STEP = 1e-3  # of internal coordinates
 LOG_STEP = 1e-6  # of ln f
-KINDS = frozenset({"frequency", "split", "shift", "density"})  # what follows the constants as this module says
+KINDS = frozenset(
+    {"frequency", "split", "shift", "density", "loss", "level", "level_loss"}
+)  # what follows the constants as this module says
 
 
 def by_frequency(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Feature]) -> dict[int, FloatArray]:
@@ -49,6 +52,7 @@ def by_frequency(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Featur
     constants = h.study.constants
     values, actions = constants.values(z[: h.constants]), h.actions(z)
     columns = _scatter_columns(h, z, told, base)
+    columns |= _loss_columns(h, z, told, base)
     acting = [
         j
         for j, name in enumerate(constants.names)
@@ -113,6 +117,18 @@ def _scatter_columns(
         slopes = slopes_of(base, found, STEP)
         orders = np.array([-1 if f.key is None else f.key[0] for f in base])
         columns |= {j: np.where(orders == order, slopes, 0.0) for j, order in own.items()}
+    return columns
+
+
+def _loss_columns(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Feature]) -> dict[int, FloatArray]:
+    names = {name for own in h.study.constants.losses for name in own.values()}
+    columns = {}
+    for j, name in enumerate(h.study.constants.names):
+        if name in names:
+            moved = z.copy()
+            moved[j] += STEP
+            found, _ = h.all_features(moved, told)
+            columns[j] = slopes_of(base, found, STEP)
     return columns
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -40,6 +40,8 @@ class PredictedMode(NamedByMode):
     split : complex relative split of λ by the hypothesis, without scatter.
     shared : relative standard deviation that one unit of the stage's mesh coordinate stands for.
     slope : d ln f by the materials (`material_vector`) where it is not the bonded stator's, else None.
+    shares : source of a material, or "joint" → share of the strain energy; empty unless damping is predicted.
+    friction : what slipping adds to the loss factor.
     """
 
     key: ModeKey
@@ -48,6 +50,8 @@ class PredictedMode(NamedByMode):
     split: complex
     shared: float
     slope: np.ndarray | None = None
+    shares: Mapping[str, float] = field(default_factory=dict)
+    friction: float = 0.0
 
     @property
     def frequency_hz(self) -> float:

@@ -279,7 +279,12 @@ def grown(problem: RingProblem, added: np.ndarray, terms: AffineTerms, profile: 
         return np.block([[inner, mixed], [mixed.T, own]])
 
     stiffness = {
-        r: np.stack([larger(known[q] if (known := problem.stiffness.get(r)) is not None else None, t) for q, t in enumerate(parts)])
+        r: np.stack(
+            [
+                larger(known[q] if (known := problem.stiffness.get(r)) is not None else None, t)
+                for q, t in enumerate(parts)
+            ]
+        )
         for r, parts in terms.stiffness.items()
     }
     mass = {r: larger(problem.mass.get(r), t) for r, t in terms.mass.items()}

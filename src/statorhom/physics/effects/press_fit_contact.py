@@ -32,7 +32,9 @@ class PressFitContact(Effect):
         stiffness = values["contact_stiffness_n_per_m3"]
         names = [stage.name for stage in files.study.stages]
         later = frozenset(names[names.index(candidate.stage) :])
-        return Action(joint=Joint(("frame",), stiffness, values["tangential_ratio"] * stiffness), stages=later)
+        return Action(
+            joint=Joint(("frame",), stiffness, values["tangential_ratio"] * stiffness), stages=later
+        )
 
 
 EFFECT = PressFitContact()
