@@ -102,7 +102,7 @@ def concerns(study: StudyModel, stage: StageModel, constant: str) -> bool:
 def _scatter_columns(
     h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Feature]
 ) -> dict[int, FloatArray]:
-    columns = {}
+    columns: dict[int, FloatArray] = {}
     for part in ("re", "im"):
         own = {
             j: int(name.split()[1])
@@ -122,7 +122,7 @@ def _scatter_columns(
 
 def _loss_columns(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Feature]) -> dict[int, FloatArray]:
     names = {name for own in h.study.constants.losses for name in own.values()}
-    columns = {}
+    columns: dict[int, FloatArray] = {}
     for j, name in enumerate(h.study.constants.names):
         if name in names:
             moved = z.copy()

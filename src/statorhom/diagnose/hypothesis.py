@@ -252,7 +252,7 @@ class Hypothesis:
         test: MeasuredTest,
         values: Mapping[str, float],
         actions: Sequence[Action],
-        mark: Hashable,
+        mark: Sequence[Hashable],
     ) -> dict[ModeKey, PredictedMode]:
         """Named free modes; of a supported test those that it is made of, without what is attached."""
         if test.support != FREE:

@@ -112,12 +112,10 @@ class ArcGroup:
         assert joint.arc is not None
         half = Sectors(np.array([[0.0, np.pi / self.waves.slots]]), self.waves.slots)
         share = half.share_of_arc(-0.5 * joint.arc[1], 0.5 * joint.arc[1])
-        change = sum(
-            (joint.ratio - 1.0)
-            * k
-            * project(self._grams, p, np.repeat(share, len(p), axis=0), self.waves, self.waves)
-            for k, p in zip((joint.normal, joint.tangential), self.pieces, strict=True)
-        )
+        change = np.zeros((len(self.waves), len(self.waves)))
+        for stiffness, pieces in zip((joint.normal, joint.tangential), self.pieces, strict=True):
+            weights = np.repeat((joint.ratio - 1.0) * stiffness * share, len(pieces), axis=0)
+            change += project(self._grams, pieces, weights, self.waves, self.waves)
         count = len(self.waves.cosine)
         blocks = ((self.cosine, change[:count, :count]), (self.sine, change[count:, count:]))
         return Weakened(even, tuple(_family(even, numbers, block) for numbers, block in blocks))

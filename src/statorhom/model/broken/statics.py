@@ -72,9 +72,7 @@ class Statics:
         """ζᵀLᵀ and ζᵀMY of the probes, (probes, a) each."""
         if len(self) == 0:
             return np.zeros((len(self.basis.probes), 0)), np.zeros((len(self.basis.probes), 0))
-        return self._stacked(lambda p: p.surface_parts[1].T), self._stacked(
-            lambda p: p.surface_products[1]
-        )
+        return self._stacked(lambda p: p.surface_parts[1].T), self._stacked(lambda p: p.surface_products[1])
 
     @cached_property
     def flexibility(self) -> np.ndarray:
