@@ -57,7 +57,10 @@ class Explanation:
         r = self.refit
         effect = slice(r.hypothesis.constants, None)
         unusual = float(np.sum(r.hypothesis.prior_weights[effect] * r.z[effect] ** 2))
-        return float(chi2.sf(r.objective - r.hypothesis.missed - unusual, max(len(r.jacobian), 1)))
+        # loss factors scatter as they like: few of them would hide a frequency that is off
+        lossy = [f.residual for f in r.hypothesis.features(r.z) if f.kind == "loss"]
+        misfit = r.objective - r.hypothesis.missed - unusual - float(np.sum(np.square(lossy)))
+        return float(chi2.sf(misfit, max(len(r.jacobian) - len(lossy), 1)))
 
 
 def nothing(base: Refit) -> Explanation:

@@ -19,7 +19,7 @@ LEAST_FALL = 0.25
 ERRORS = 2.0  # standard errors that the fall must exceed
 WORSE = 1.5  # a group worsens when its error grows by this and beyond its noise
 # of features other than frequencies, in terms of a frequency: split of λ, shift of a pole
-WEIGHT = {"frequency": 1.0, "split": 0.25, "shift": 1.0}
+WEIGHT = {"frequency": 1.0, "split": 0.25, "shift": 1.0, "level": 1.0, "level_loss": 0.005}
 
 Group = tuple[str, ModeKey | None]
 
