@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -15,12 +16,14 @@ from threadpoolctl import threadpool_limits
 from statorhom.errors import IdentificationError
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.materials.hooke import Hooke
+from statorhom.mesh.hex_mesh import HalfPitchMesh, PartMesh
 from statorhom.model.affine import AffineModel, Material, Materials
 from statorhom.model.broken.basis import symmetric_basis
 from statorhom.model.broken.named_response import Response, columns_of, named_response
 from statorhom.model.broken.solve import solve_broken
 from statorhom.model.convergence import ModeKey, mode_keys
 from statorhom.model.free_modes import FreeModes, solve_free
+from statorhom.model.harmonic import Harmonic
 from statorhom.physics.action import Action
 from statorhom.physics.declared import DeclaredEffect, beyond, declared_effects
 from statorhom.study.study import StudyFiles
@@ -45,7 +48,7 @@ class EffectShifts:
     names: tuple[str, ...] = ()
 
     def at(
-        self, model: AffineModel, materials: Materials, highest_hz: float, orders: Sequence[int]
+        self, model: AffineModel[PartMesh], materials: Materials, highest_hz: float, orders: Sequence[int]
     ) -> dict[ModeKey, Response]:
         """Shift of ln f and split of every named mode at given materials.
 
@@ -60,8 +63,9 @@ class EffectShifts:
         SolverError
             If the effects leave a mass or stiffness that is not definite.
         """
-        if not self.actions:
-            return {}
+        if not self.actions or not isinstance(model.mesh, HalfPitchMesh):
+            return {}  # effects are those of stators
+        model = cast(AffineModel, model)
         with threadpool_limits(limits=1, user_api="blas"):
             plain = mode_keys(solve_free(model, materials, highest_hz, orders).modes)
             acted = self.materials(materials)
@@ -86,7 +90,7 @@ class EffectShifts:
         return materials
 
     def _broken(
-        self, model: AffineModel, materials: Materials, solution: FreeModes, highest_hz: float
+        self, model: AffineModel[PartMesh], materials: Materials, solution: FreeModes, highest_hz: float
     ) -> dict[ModeKey, Response]:
         changes = [c for a in self.actions if a.changes for c in a.changes(model.mesh, materials)]
         if not changes:
@@ -95,14 +99,14 @@ class EffectShifts:
         modes = solve_broken(basis, changes, tolerance=None)
         found = {}
         for key, mode in mode_keys(solution.modes).items():
-            place = columns_of(basis, solution.harmonics[mode.problem], mode.frequency_hz)
+            place = columns_of(basis, cast(Harmonic, solution.harmonics[mode.problem]), mode.frequency_hz)
             response = None if place is None else named_response(modes, place)
             if response is not None:
                 found[key] = response
         return found
 
     def _rated(
-        self, model: AffineModel, materials: Materials, highest_hz: float, orders: Sequence[int]
+        self, model: AffineModel[PartMesh], materials: Materials, highest_hz: float, orders: Sequence[int]
     ) -> dict[ModeKey, float]:
         """ln f of a stator whose moduli follow the frequency: where f of the moduli at f is f itself."""
         laws = {r: law for a in self.actions for r, law in a.modulus_at.items() if r in materials}
