@@ -72,7 +72,7 @@ def test_cannot_be_changed(folder: Any) -> None:
         (
             'name = "small ring"',
             'name = "x"\nkind = "wing"',
-            ['kind = "wing" cannot be computed yet', 'use a geometry of kind = "stator"'],
+            ["a wing is no stator", 'use simulate, fit, run or report, or a geometry of kind = "stator"'],
         ),
         (
             'name = "small ring"',

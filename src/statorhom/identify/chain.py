@@ -10,7 +10,6 @@ from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
-from statorhom.geometry.block import BlockGeometry
 from statorhom.geometry.tested_object import ObjectGeometry, object_geometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.described import described
@@ -154,8 +153,6 @@ class Chain:
             self.files, setup, _earlier_densities(self.files, self.geometry, setup.index)
         )
         run = run_stage(setup, carried, analytic, self.settings, workers, announce, BasisStore(self.bases))
-        if isinstance(setup.step, BlockGeometry):
-            return stage_result(run, state.mass_kg, state.regions, {})
         shapes, rows = free_shapes(run)
         result = stage_result(run, state.mass_kg, state.regions, rows)
         progress = announce("supported tests", 1)

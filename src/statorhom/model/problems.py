@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import singledispatch
+from typing import cast
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh, PartMesh
 from statorhom.mesh.mirror_mesh import MirrorMesh
@@ -17,7 +18,7 @@ from statorhom.model.space import Profile, Space
 @singledispatch
 def spaces_of(mesh: PartMesh, order: int) -> Sequence[Space]:
     """The problems of a number."""
-    raise TypeError(type(mesh))
+    raise TypeError(f"{type(mesh).__name__} has no problem {order}")
 
 
 @singledispatch
@@ -44,7 +45,7 @@ def _(mesh: HalfPitchMesh) -> Sequence[int]:
 
 @profile_of.register
 def _(mesh: HalfPitchMesh) -> Profile:
-    return radial_profile(mesh)
+    return cast(Profile, radial_profile(mesh))  # the problems of a half pitch are harmonics
 
 
 @spaces_of.register
