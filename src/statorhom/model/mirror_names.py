@@ -9,7 +9,7 @@ _BEAM = {
     (False, False): "axial",
     (True, False): "bending along y",
     (False, True): "bending along z",
-    (True, True): "torsion",
+    (True, True): "torsion about x",
 }
 _ACROSS, _THROUGH = 1, 2  # bits of the planes across y and z
 PLATE = "plate"
