@@ -92,17 +92,19 @@ class Hypothesis:
         return tuple(found)
 
     def actions(self, z: FloatArray) -> tuple[Action, ...]:
-        """What the effects do."""
+        """What the effects do, and after them those that the study declares."""
         values = self.effect_values(z)
-        return tuple(
+        own = (
             library()[c.effect].action(c, v, self.study.files)
             for c, v in zip(self.candidates, values, strict=True)
         )
+        return (*own, *self.study.effects)
 
     def mark(self, z: FloatArray) -> tuple[tuple[str, tuple[float, ...]], ...]:
         """What the actions depend on."""
         values = self.effect_values(z)
-        return tuple((c.label, tuple(v.values())) for c, v in zip(self.candidates, values, strict=True))
+        own = ((c.label, tuple(v.values())) for c, v in zip(self.candidates, values, strict=True))
+        return (*own, *((f"declared {i}", ()) for i in range(len(self.study.effects))))
 
     def limits(self) -> tuple[FloatArray, FloatArray]:
         """Of the coordinates; angles have none."""
@@ -136,7 +138,9 @@ class Hypothesis:
             for test in stage.tests:
                 found = self._predicted(stage, test, values, actions, self.mark(z))
                 if test.support != FREE:
-                    reference = supported_test(self.study.files, stage, test, actions, self.mark(z))
+                    reference = supported_test(
+                        self.study.files, stage, test, actions, self.mark(z), shapes=True
+                    )
                     held[test.name] = () if reference is None else partners(stage, test, reference, found)
                 else:
                     keys = assigned(test, self.modes(test, actions), found)
@@ -171,7 +175,7 @@ class Hypothesis:
         """Features whether seen or not, and the predictions behind them; `moved` stands in for these."""
         values, actions = self.study.constants.values(z[: self.constants]), self.actions(z)
         assert self.held is not None
-        found = self._densities(values, actions)
+        found = self.densities(values, actions)
         told: dict[str, tuple[StageModel, Predictions]] = {}
         for stage in self.study.stages:
             known: dict[str, Mapping[ModeKey, PredictedMode]] = {}
@@ -245,7 +249,7 @@ class Hypothesis:
             found += shift_features(test, labels, stage.amplitudes, sensor)
         return found
 
-    def _densities(self, values: Mapping[str, float], actions: Sequence[Action]) -> list[Feature]:
+    def densities(self, values: Mapping[str, float], actions: Sequence[Action]) -> list[Feature]:
         """What is known of the lamination's density."""
         corrected: dict[str, float] = {}
         dimensions: dict[str, float] = {}

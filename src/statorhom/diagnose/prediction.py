@@ -18,7 +18,7 @@ from statorhom.model.convergence import ModeKey, mode_keys
 from statorhom.model.stator_mode import StatorMode
 from statorhom.physics.action import Action
 
-KEPT = 32  # responses per stage
+KEPT = 256  # responses per stage
 RATE_HZ = (
     400.0,
     1000.0,
@@ -74,8 +74,15 @@ def acted_materials(
     for action in actions:
         corrected |= dict(action.masses)
     materials = study.materials(stage, values, study.masses(values, corrected))
+    return with_rules(materials, stage.name, actions, test)
+
+
+def with_rules(
+    materials: Materials, stage: str, actions: Sequence[Action], test: str | None = None
+) -> Materials:
+    """Declared materials as the actions that touch a stage, or a test of it, make them."""
     for action in actions:
-        if action.materials is not None and action.touches(stage.name, test):
+        if action.materials is not None and action.touches(stage, test):
             materials = action.materials(materials)
     return materials
 
@@ -93,11 +100,15 @@ def predicted(
     values: Mapping[str, float],
     actions: Sequence[Action],
     test: str | None = None,
-    mark: Hashable = None,
+    mark: Sequence[Hashable] | None = None,
 ) -> dict[ModeKey, PredictedMode]:
-    """Named modes of a free test, by key; equal marks say that the actions are the same."""
+    """Named modes of a free test, by key; `mark` has one entry per action: equal ones say that it is the same."""
     materials = acted_materials(study, stage, values, actions, test)
     here = [a for a in actions if a.touches(stage.name, test)]
+    if mark is not None:
+        # what breaks no symmetry may differ
+        pairs = zip(actions, mark, strict=True)
+        mark = tuple(m for a, m in pairs if a.changes and a.touches(stage.name, test))
     rates = [a for a in here if a.modulus_at]
     logs = _rated(stage, materials, rates[0]) if rates else _plain(stage, materials)
     shifts = broken_responses(stage, here, None if mark is None else (test, mark))

@@ -8,6 +8,7 @@ from statorhom.errors import IdentificationError
 from statorhom.identify.announce import Announce
 from statorhom.identify.bands import highest_hz, mode_names, named_spaces
 from statorhom.identify.basis_check import BasisCheck, check_basis
+from statorhom.identify.effect_shifts import NO_EFFECTS, EffectShifts
 from statorhom.identify.fit_bases import FitBases
 from statorhom.identify.model_error import ModelError, model_error
 from statorhom.identify.optimizers.workers import Workers
@@ -22,6 +23,8 @@ from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.basis_store import BasisStore
+from statorhom.model.broken.named_response import Response
+from statorhom.model.convergence import ModeKey
 from statorhom.model.free_modes import FreeModes
 
 ModeName = tuple[int, int | None]  # order and node planes
@@ -45,6 +48,7 @@ class StageRun:
     plain : the optimum that the fitting mesh alone would give, without mesh factors.
     basis : the reduced model verified at the optimum.
     basis_error : largest certified relative frequency error of the reduced model where it was trained.
+    effects : that the study declares.
     """
 
     setup: StageSetup
@@ -56,6 +60,7 @@ class StageRun:
     plain: Optimum
     basis: BasisCheck
     basis_error: float
+    effects: EffectShifts = NO_EFFECTS
 
 
 def run_stage(
@@ -66,6 +71,7 @@ def run_stage(
     workers: Workers,
     announce: Announce,
     store: BasisStore | None = None,
+    effects: EffectShifts = NO_EFFECTS,
 ) -> StageRun:
     """Identify the constants of a step.
 
@@ -77,6 +83,7 @@ def run_stage(
     settings, workers : of the run.
     announce : told what begins.
     store : where reduced bases are kept between runs.
+    effects : that the study declares.
 
     Raises
     ------
@@ -99,9 +106,15 @@ def run_stage(
     spread = common_space(*known) if settings.shared_bases else space
     bases = FitBases(model, problems, top, workers, announce, store, settings.shared_bases)
     reduced = bases.over_prior(spread, setup.materials, typical)
-    problem = StageProblem(space, setup.materials, reduced, setup.fitted, ModelError())
     predicted = mode_names(model, typical, setup.free_modes, BAND_MARGIN)
     bands = _study_bands(setup, names, predicted, len(series.models))
+    band = BAND_MARGIN * highest_hz(setup.free_modes)
+
+    def shifts(materials: Materials) -> dict[ModeKey, Response]:
+        return effects.at(model, materials, band, sorted(bands))
+
+    error = ModelError(effects=shifts(typical))
+    problem = StageProblem(space, setup.materials, reduced, setup.fitted, error)
     fit = fit_stage(
         problem,
         setup.keys.identify,
@@ -110,8 +123,9 @@ def run_stage(
         seed=settings.seed,
         workers=workers,
         progress=announce("search", setup.keys.identify.evaluations),
+        effects=shifts if effects.actions else None,
     )
-    return _finished(setup, fit, series, sorted(bands), workers)
+    return _finished(setup, fit, series, sorted(bands), workers, effects)
 
 
 def _study_bands(
@@ -125,22 +139,29 @@ def _study_bands(
 
 
 def _finished(
-    setup: StageSetup, fit: StageFit, series: MeshSeries, orders: list[int], workers: Workers
+    setup: StageSetup,
+    fit: StageFit,
+    series: MeshSeries,
+    orders: list[int],
+    workers: Workers,
+    effects: EffectShifts,
 ) -> StageRun:
     best = fit.posterior.best.x
     materials = fit.problem.stage_materials(best)
     band = BAND_MARGIN * highest_hz(setup.free_modes)
     solution = series.solution(materials, band, orders, workers)
     same = {c.key: c.frequency_hz[0] for c in fit.convergence}
-    plain = polish(replace(fit.problem, error=ModelError()), best)
+    shifts = fit.problem.error.effects
+    plain = polish(replace(fit.problem, error=ModelError(effects=shifts)), best)
     return StageRun(
         setup=setup,
         fit=fit,
         model=series.coarsest,
         materials=materials,
         solution=solution,
-        error=model_error(fit.convergence, same),
+        error=replace(model_error(fit.convergence, same), effects=shifts),
         plain=plain,
         basis=check_basis(fit.problem.solve(best), solution),
         basis_error=fit.problem.solver.error,
+        effects=effects,
     )

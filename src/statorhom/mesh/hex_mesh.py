@@ -20,7 +20,7 @@ def _freeze(mesh: HexMesh) -> None:
             value.setflags(write=False)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HexMesh:
     """A mesh of 20-node hexahedra.
 
@@ -52,7 +52,7 @@ class HexMesh:
         return replace(self, region=region, regions=regions)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PartMesh(HexMesh):
     """Mesh of the part that a symmetric body is copied from; `axes` are those of its materials."""
 
@@ -69,7 +69,7 @@ class PartMesh(HexMesh):
         raise NotImplementedError
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HalfPitchMesh(PartMesh):
     """Mesh of half a slot pitch, from the centre of a tooth to the centre of the next slot.
 

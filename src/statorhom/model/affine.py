@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Generic, cast
 
 import numpy as np
@@ -38,8 +39,10 @@ class Material:
 
 
 Materials = Mapping[str, Material]
+_ROWS, _COLUMNS = np.array(HOOKE_ENTRIES).T
 
 
+@lru_cache(maxsize=4096)
 def hooke_coefficients(hooke: Hooke) -> np.ndarray:
     """The nine entries C11, C22, C33, C12, C13, C23, C44, C55, C66 (Pa).
 
@@ -50,11 +53,12 @@ def hooke_coefficients(hooke: Hooke) -> np.ndarray:
     """
     matrix = hooke.matrix
     rest = matrix.copy()
-    for i, j in HOOKE_ENTRIES:
-        rest[i, j] = rest[j, i] = 0.0
+    rest[_ROWS, _COLUMNS] = rest[_COLUMNS, _ROWS] = 0.0
     if np.abs(rest).max() > 1e-9 * np.abs(matrix).max():
         raise MaterialError("a region's material must be orthotropic with its axes along r, θ and z")
-    return np.array([matrix[i, j] for i, j in HOOKE_ENTRIES])
+    found = matrix[_ROWS, _COLUMNS]
+    found.setflags(write=False)
+    return np.asarray(found)
 
 
 # unless said otherwise, a stator's
@@ -62,7 +66,7 @@ Mesh = TypeVar("Mesh", bound=PartMesh, default=HalfPitchMesh, covariant=True)
 _Mesh = TypeVar("_Mesh", bound=PartMesh)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class AffineModel(Generic[Mesh]):
     """A symmetric body's part before its materials are known.
 

@@ -65,7 +65,10 @@ def _opening(steps: Sequence[Step]) -> Text:
 def _subject(steps: Sequence[Step]) -> str:
     coupon = coupon_of(steps)
     if coupon is not None:
-        return f"This report describes how the material of a {coupon} was found from its weight and its measured modes. "
+        return (
+            f"This report describes how the material of a {coupon} was found from its weight and its "
+            "measured modes. "
+        )
     return (
         "This report describes how the materials of a stator were found from its weight and its measured "
         f"modes, step by step of its fabrication. {plural(len(steps), 'step').capitalize()} were weighed. "
