@@ -12,6 +12,7 @@ import numpy as np
 from statorhom.diagnose.joint_basis import JointBasis, joint_basis
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.ring_basis import RingBasis, RingModes, ring_basis
+from statorhom.geometry.stator import StepGeometry
 from statorhom.identify.model_error import ModelError
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.mesh.density import MeshDensity
@@ -141,7 +142,7 @@ def stage_model(
     setup: StageSetup, tests: Sequence[MeasuredTest], snapshots: Sequence[Materials], density: MeshDensity
 ) -> StageModel:
     """A stage at the first of some materials, good near all of them; no mesh factors yet."""
-    assert setup.step is not None
+    assert isinstance(setup.step, StepGeometry)
     model = assemble(mesh_step(setup.step, density))
     top = BAND * max(mode.frequency_hz for test in tests for mode in test.modes)
     named = [m.order for test in tests for m in test.modes if m.order is not None]
@@ -152,7 +153,7 @@ def stage_model(
 
 def mesh_error(setup: StageSetup, ring: RingBasis, materials: Materials, density: MeshDensity) -> ModelError:
     """Mesh factors from two meshes at given materials."""
-    assert setup.step is not None
+    assert isinstance(setup.step, StepGeometry)
     finer = assemble(mesh_step(setup.step, density.refined(FINER)))
     orders = sorted({m.order for t in setup.tests for m in t.modes if m.order} or {2, 3, 4})
     fine = problem_at(finer, materials).solve(ring.highest_hz, orders, MOST)
