@@ -11,18 +11,26 @@ from statorhom.identify.basis_check import BasisCheck, check_basis
 from statorhom.identify.fit_bases import FitBases
 from statorhom.identify.model_error import ModelError, model_error
 from statorhom.identify.optimizers.workers import Workers
+from statorhom.identify.parameters import ParameterSpace
 from statorhom.identify.polish import Optimum, polish
 from statorhom.identify.priors import Carried, common_space, stage_space
 from statorhom.identify.refinement import Band, MeshSeries
 from statorhom.identify.settings import Settings
-from statorhom.identify.stage_fit import StageFit, fit_stage, search_space
+from statorhom.identify.stage_basis import LOOK
+from statorhom.identify.stage_fit import StageFit, fit_from, fit_stage, search_space
 from statorhom.identify.stage_problem import StageProblem
 from statorhom.identify.stage_setup import StageSetup
+from statorhom.identify.surface.cube import Cube
+from statorhom.identify.surface.experiments import Experiments, FullModel
+from statorhom.identify.surface.search import SurfaceSearch, search_surface
+from statorhom.identify.surface.stator_model import stator_model
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.basis_store import BasisStore
+from statorhom.model.convergence import ModeConvergence
 from statorhom.model.free_modes import FreeModes
 from statorhom.model.harmonic import problems_of
+from statorhom.study.response_surface import SurfaceKeys
 
 ModeName = tuple[int, int | None]  # order and node planes
 BAND_MARGIN = 1.15
@@ -45,6 +53,7 @@ class StageRun:
     plain : the optimum that the fitting mesh alone would give, without mesh factors.
     basis : the reduced model verified at the optimum.
     basis_error : largest certified relative frequency error of the reduced model where it was trained.
+    surface : the search, where response surfaces did it.
     """
 
     setup: StageSetup
@@ -56,6 +65,7 @@ class StageRun:
     plain: Optimum
     basis: BasisCheck
     basis_error: float
+    surface: SurfaceSearch | None = None
 
 
 def run_stage(
@@ -98,20 +108,49 @@ def run_stage(
     problems = problems_of(model.mesh, names)
     spread = common_space(*known) if settings.shared_bases else space
     bases = FitBases(model, problems, top, workers, announce, store, settings.shared_bases)
-    reduced = bases.over_prior(spread, setup.materials, typical)
-    problem = StageProblem(space, setup.materials, reduced, setup.fitted, ModelError())
     predicted = mode_names(model, typical, setup.free_modes, BAND_MARGIN)
     bands = _study_bands(setup, names, predicted, len(series.models))
-    fit = fit_stage(
-        problem,
-        setup.keys.identify,
-        lambda materials: series.study(materials, bands, workers),
-        bases.around,
-        seed=settings.seed,
-        workers=workers,
-        progress=announce("search", setup.keys.identify.evaluations),
-    )
-    return _finished(setup, fit, series, sorted(bands), workers)
+
+    def refine(at: Materials) -> tuple[ModeConvergence, ...]:
+        return series.study(at, bands, workers)
+
+    surface: SurfaceSearch | None = None
+    if setup.keys.identify.method == "response_surface":
+        full = stator_model(model, typical, LOOK * top, sorted({order for order, _ in names}))
+        surface = _surface_search(setup, searched, full, settings.seed, workers, announce)
+        starts = surface.starts(space)
+        reduced = bases.around(surface.problem_over(space), starts)
+        problem = StageProblem(space, setup.materials, reduced, setup.fitted, ModelError())
+        fit = fit_from(problem, starts, surface.evaluations, refine, bases.around, seed=settings.seed)
+    else:
+        reduced = bases.over_prior(spread, setup.materials, typical)
+        problem = StageProblem(space, setup.materials, reduced, setup.fitted, ModelError())
+        fit = fit_stage(
+            problem,
+            setup.keys.identify,
+            refine,
+            bases.around,
+            seed=settings.seed,
+            workers=workers,
+            progress=announce("search", setup.keys.identify.evaluations),
+        )
+    run = _finished(setup, fit, series, sorted(bands), workers)
+    return replace(run, surface=surface)
+
+
+def _surface_search(
+    setup: StageSetup,
+    searched: ParameterSpace,
+    full: FullModel,
+    seed: int,
+    workers: Workers,
+    announce: Announce,
+) -> SurfaceSearch:
+    keys = setup.keys.identify
+    surface = keys.response_surface or SurfaceKeys()
+    progress = announce("full solves of the design", surface.most_points)
+    experiments = Experiments(Cube(searched), setup.materials, full, workers, progress)
+    return search_surface(experiments, setup.fitted, surface, evaluations=keys.evaluations, seed=seed)
 
 
 def _study_bands(
