@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from statorhom.errors import IdentificationError
 from statorhom.identify.announce import Announce
-from statorhom.identify.bands import highest_hz, mode_names
+from statorhom.identify.bands import highest_hz, mode_names, named_spaces
 from statorhom.identify.basis_check import BasisCheck, check_basis
 from statorhom.identify.fit_bases import FitBases
 from statorhom.identify.model_error import ModelError, model_error
@@ -25,11 +25,11 @@ from statorhom.identify.surface.experiments import Experiments, FullModel
 from statorhom.identify.surface.search import SurfaceSearch, search_surface
 from statorhom.identify.surface.stator_model import stator_model
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
+from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.basis_store import BasisStore
 from statorhom.model.convergence import ModeConvergence
 from statorhom.model.free_modes import FreeModes
-from statorhom.model.harmonic import problems_of
 from statorhom.study.response_surface import SurfaceKeys
 
 ModeName = tuple[int, int | None]  # order and node planes
@@ -58,7 +58,7 @@ class StageRun:
 
     setup: StageSetup
     fit: StageFit
-    model: AffineModel
+    model: AffineModel[PartMesh]
     materials: Materials
     solution: FreeModes
     error: ModelError
@@ -105,7 +105,7 @@ def run_stage(
     typical = setup.materials.of(searched.values(searched.start))
     top = highest_hz(setup.fitted)
     names = mode_names(model, typical, setup.fitted)
-    problems = problems_of(model.mesh, names)
+    problems = named_spaces(model.mesh, names)
     spread = common_space(*known) if settings.shared_bases else space
     bases = FitBases(model, problems, top, workers, announce, store, settings.shared_bases)
     predicted = mode_names(model, typical, setup.free_modes, BAND_MARGIN)

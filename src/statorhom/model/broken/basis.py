@@ -8,9 +8,11 @@ symmetric stator that is nowhere stiffer than any broken one (`statorhom.model.b
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -62,6 +64,11 @@ class ProblemBasis:
         """Mass products (w, s) and (t, s) of vectors and probes with the surface's static responses."""
         return self.vectors.T @ self.sector.inertial, self.probes.T @ self.sector.inertial
 
+    @cached_property
+    def surface_parts(self) -> tuple[np.ndarray, np.ndarray]:
+        """Loaded coordinates (s, w) and (s, t) of vectors and probes."""
+        return self.vectors[self.sector.loaded], self.probes[self.sector.loaded]
+
 
 @dataclass(frozen=True, eq=False)
 class SymmetricBasis:
@@ -84,6 +91,9 @@ class SymmetricBasis:
     shift: float
     softest: tuple[tuple[Pieces, np.ndarray], ...] = ()
     grams: GramCache = field(default_factory=GramCache, repr=False, compare=False)
+    kept_statics: OrderedDict[tuple[int, ...], Any] = field(
+        default_factory=OrderedDict, init=False, repr=False, compare=False
+    )
 
     @cached_property
     def waves(self) -> Waves:
@@ -94,6 +104,17 @@ class SymmetricBasis:
     def probes(self) -> Waves:
         """Columns of the probes."""
         return self._waves([p.probes for p in self.problems])
+
+    @cached_property
+    def surface_motion(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Displacements of the surface by the loaded coordinates of all problems, one problem after the other.
+
+        Real and imaginary part (d, s) and the harmonic (s,) of every coordinate.
+        """
+        sectors = [p.sector for p in self.problems]
+        moved = np.hstack([s.moved for s in sectors])
+        order = np.repeat([s.space.order for s in sectors], [len(s.loaded) for s in sectors])
+        return np.ascontiguousarray(moved.real), np.ascontiguousarray(moved.imag), order
 
     @cached_property
     def values(self) -> np.ndarray:
@@ -161,6 +182,7 @@ class BasisTask:
     cut_hz : highest frequency of the modes.
     shift : σ.
     surface : displacements on the outer surface.
+    certified : with probes.
     """
 
     mesh: HalfPitchMesh
@@ -169,6 +191,7 @@ class BasisTask:
     cut_hz: float
     shift: float
     surface: np.ndarray
+    certified: bool = True
 
     def __call__(self, order: int) -> tuple[ProblemBasis, ...]:
         """All problems of a harmonic."""
@@ -180,7 +203,8 @@ class BasisTask:
                 expected = len(found[-1].values) + 2 if found else FIRST_GUESS
                 values, vectors = modes_below(K, M, self.cut_hz, expected)
                 sector = Sector(space, K, M, self.shift, self.surface)
-                found.append(ProblemBasis(sector, sector, values, vectors, probes(K, M, self.shift, order)))
+                drawn = probes(K, M, self.shift, order) if self.certified else np.empty((space.size, 0))
+                found.append(ProblemBasis(sector, sector, values, vectors, drawn))
         return tuple(found)
 
 
@@ -191,6 +215,7 @@ def symmetric_basis(
     *,
     margin: float = MARGIN,
     contact: sp.csr_array | None = None,
+    certified: bool = True,
     mapper: Mapper = map,
 ) -> SymmetricBasis:
     """Modes of the symmetric stator in a band.
@@ -202,6 +227,7 @@ def symmetric_basis(
     highest_hz : upper end of the band in which the broken symmetry is to be solved.
     margin : the modes reach up to `margin` times `highest_hz`.
     contact : further stiffness of the half pitch (N/m), the same in all copies.
+    certified : False leaves out what tells the errors of a solution; it cannot be enriched then.
     mapper : `map`, or the parallel map of an executor; called with a picklable function and the orders.
 
     Raises
@@ -213,7 +239,7 @@ def symmetric_basis(
     if contact is not None:
         K = sp.csr_array(K + contact)
     shift = SHIFT * (2 * np.pi * highest_hz) ** 2
-    task = BasisTask(model.mesh, K, M, margin * highest_hz, shift, surface_dofs(model.mesh))
+    task = BasisTask(model.mesh, K, M, margin * highest_hz, shift, surface_dofs(model.mesh), certified)
     problems = [p for group in mapper(task, all_orders(model.mesh.slots)) for p in group]
     return SymmetricBasis(model.mesh, tuple(problems), highest_hz, margin * highest_hz, shift)
 
