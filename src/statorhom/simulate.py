@@ -14,6 +14,7 @@ from threadpoolctl import threadpool_limits
 from statorhom.errors import InputFileError
 from statorhom.geometry.stator import stator_geometry
 from statorhom.identify.bands import LEAST_VISIBLE, highest_hz
+from statorhom.identify.effect_shifts import effect_shifts
 from statorhom.identify.model_error import ModelError, model_error
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.priors import Carried, stage_space
@@ -21,7 +22,7 @@ from statorhom.identify.refinement import Band, MeshSeries
 from statorhom.identify.settings import Settings
 from statorhom.identify.simulated_shapes import mode_shape, shape_grid
 from statorhom.identify.stage_materials import StageMaterials
-from statorhom.identify.stage_problem import corrected
+from statorhom.identify.stage_problem import CorrectedMode, corrected
 from statorhom.identify.stage_run import PREDICTED_MESHES, PREDICTED_MODES
 from statorhom.identify.stage_setup import StageSetup, TestModes, stage_setup
 from statorhom.materials.hooke import Hooke
@@ -42,6 +43,7 @@ MARGIN = 1.15
 DEFAULT_BAND_HZ = 6000.0  # of a stage whose tests have no table to tell
 DEFAULT_SUPPORTED_HZ = 3000.0
 PICTURES = 24
+LEAST_SPLIT = 1e-6  # of ln f: below, one line stands for both
 
 
 def simulate_study(path: Path, stage: str | None, out: Path | None) -> tuple[Path, pd.DataFrame]:
@@ -131,15 +133,29 @@ def _simulate(
     solution = solve_free(series.coarsest, materials, top, jobs=os.cpu_count() or 1)
     _write_shapes(setup, series.coarsest, solution, folder)
     error = _mesh_error(series, materials, top, solution)
-    free = sorted(corrected(solution.modes, error), key=lambda mode: mode.frequency_hz)
+    effects = effect_shifts(files, setup)
+    orders = sorted({solution.harmonics[m.problem].order for m in solution.modes})
+    error = replace(error, effects=effects.at(series.coarsest, materials, top, orders))
+    free = sorted(_lines(corrected(solution.modes, error), error), key=lambda mode: mode.frequency_hz)
     rows = []
     for test in setup.tests:
         support = files.study.support(test.support)
         modes: Sequence[LabelledMode] = free
         if support is not None:
-            modes = _supported(series.coarsest, materials, support, test, error)
+            modes = _supported(series.coarsest, effects.materials(materials), support, test, error)
         rows += [_row(setup, test.name, i, mode) for i, mode in enumerate(modes, start=1)]
     return rows
+
+
+def _lines(modes: Sequence[CorrectedMode], error: ModelError) -> list[CorrectedMode]:
+    """Both lines of every doublet that a declared effect splits, else the mode as it is."""
+    found = []
+    for mode in modes:
+        response = None if mode.key is None else error.effects.get(mode.key)
+        half = 0.0 if response is None else abs(response.split) / 4
+        for side in (-half, half) if half > LEAST_SPLIT else (0.0,):
+            found.append(replace(mode, frequency_hz=mode.frequency_hz * float(np.exp(side))))
+    return found
 
 
 def _supported(

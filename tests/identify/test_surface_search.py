@@ -38,8 +38,14 @@ def error(search, name):
 
 
 @pytest.fixture(scope="module")
-def polynomial():
-    return searched(experiments(), surface="polynomial")
+def laboratory():
+    """Remembers what was solved."""
+    return experiments()
+
+
+@pytest.fixture(scope="module")
+def polynomial(laboratory):
+    return searched(laboratory, surface="polynomial")
 
 
 def test_the_constants_come_out_of_the_surfaces(polynomial):
@@ -75,24 +81,24 @@ def test_full_solves_are_counted_and_none_is_done_twice():
     assert lab.solves == 25
 
 
-def test_the_gate_enlarges_the_design_until_it_predicts():
+def test_the_gate_enlarges_the_design_until_it_predicts(laboratory):
     # a plane through three points misses what bends; larger designs allow higher degrees
-    found = searched(experiments(), surface="polynomial", points=4, largest_error_percent=0.3)
+    found = searched(laboratory, surface="polynomial", points=4, largest_error_percent=0.3)
     assert [r.points for r in found.gate.rounds][:2] == [4, 8]
     assert found.gate.rounds[0].largest > 0.003 >= found.gate.rounds[-1].largest
     assert found.gate.passed
 
 
-def test_where_no_more_points_are_allowed_the_gate_says_so():
+def test_where_no_more_points_are_allowed_the_gate_says_so(laboratory):
     found = searched(
-        experiments(), surface="polynomial", points=4, largest_error_percent=0.001, most_points=8
+        laboratory, surface="polynomial", points=4, largest_error_percent=0.001, most_points=8
     )
     assert not found.gate.passed
     assert [r.points for r in found.gate.rounds] == [4, 8]
 
 
-def test_a_gaussian_process_does_as_well():
-    found = searched(experiments(), surface="gaussian_process", points=12)
+def test_a_gaussian_process_does_as_well(laboratory):
+    found = searched(laboratory, surface="gaussian_process", points=12)
     assert found.gate.passed and error(found, "G_rz_pa") < 0.01
 
 
@@ -112,7 +118,7 @@ def test_too_few_points_for_the_degree_are_refused_before_anything_is_solved():
 def test_nothing_to_search_is_an_error():
     given = {"lamination": {**KNOWN["lamination"], "E_p_pa": 186e9, "G_rz_pa": 17e9}}
     with pytest.raises(IdentificationError, match="all constants are fixed"):
-        searched(experiments(None, given))
+        searched(experiments({}, given))
 
 
 def test_the_surfaces_say_where_a_polish_may_go(polynomial):
@@ -129,8 +135,8 @@ def test_the_surfaces_say_where_a_polish_may_go(polynomial):
     assert max(found) / min(found) < 1.2
 
 
-def test_a_mode_that_is_lost_somewhere_has_no_surface():
-    lab = experiments()
+def test_a_mode_that_is_lost_somewhere_has_no_surface(laboratory):
+    lab = laboratory
     points = full_factorial(2, 0)
     solved = lab.at(points)
     spoilt = [None if i == 4 else found for i, found in enumerate(solved)]

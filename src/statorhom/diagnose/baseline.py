@@ -12,6 +12,7 @@ from statorhom.diagnose.constants import Constants, study_constants
 from statorhom.diagnose.features import SCATTER_SD
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.prediction import acted_materials, with_rules
 from statorhom.diagnose.refit import Refit, evaluated, refit
 from statorhom.diagnose.stage_model import StageModel, mesh_error, stage_model, with_reference
 from statorhom.diagnose.study_model import StudyModel
@@ -20,6 +21,7 @@ from statorhom.geometry.stator import StatorGeometry
 from statorhom.identify.settings import Settings
 from statorhom.identify.stage_setup import StageSetup, stage_setup
 from statorhom.model.affine import Materials
+from statorhom.physics.declared import declared_effects
 from statorhom.study.study import StudyFiles
 from statorhom.study.study_file import FREE
 
@@ -71,7 +73,8 @@ def baseline(
         raise IdentificationError(f"{files.path}: no stage has a test; there is nothing to diagnose")
     orders = sorted({m.order for t in tests.values() for m in t.modes if m.order is not None and m.order > 0})
     constants = study_constants(setups, [r for r in orders if r <= MAX_SCATTER_ORDER], SCATTER_SD)
-    study = StudyModel(files, geometry, constants, ())
+    effects = tuple(d.action for d in declared_effects(files))
+    study = StudyModel(files, geometry, constants, (), effects)
     z = np.zeros(len(constants))
     for setup in tested:
         own = [tests[t.name] for t in setup.tests if t.name in tests]
@@ -102,7 +105,7 @@ def _with_step(
     found = _best(study, trials)
     for number in range(ROUNDS):
         stage = study.stages[-1]
-        materials = study.materials(stage, study.constants.values(found.z), _masses(study, found.z))
+        materials = acted_materials(study, stage, study.constants.values(found.z), study.effects)
         before = _frequencies(stage, materials)
         better = with_reference(stage, materials)
         moved = max(abs(np.log(_frequencies(better, materials)[k] / f)) for k, f in before.items())
@@ -118,10 +121,6 @@ def _with_step(
 def _frequencies(stage: StageModel, materials: Materials) -> dict[int, float]:
     """Lowest frequencies by number."""
     return {i: m.frequency_hz for i, m in enumerate(stage.solve(materials).modes[:12])}
-
-
-def _masses(study: StudyModel, z: np.ndarray) -> dict[str, float]:
-    return study.masses(study.constants.values(z), {})
 
 
 def _new_constants(constants: Constants, setup: StageSetup) -> list[int]:
@@ -150,7 +149,8 @@ def _materials(study: StudyModel, setup: StageSetup, points: Sequence[np.ndarray
     for z in points:
         values = study.constants.values(z)
         try:
-            found.append(study.declared(setup, values, study.masses(values, {})))
+            plain = study.declared(setup, values, study.masses(values, {}))
+            found.append(with_rules(plain, setup.keys.name, study.effects))
         except StatorhomError:
             continue
     if not found:

@@ -34,7 +34,9 @@ from statorhom.diagnose.held_out_name import held_out_names, renames_alone
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.next_measurement import next_measurement
 from statorhom.diagnose.one_line_errors import one_line_errors
+from statorhom.diagnose.place_rows import angle_rows, machine_row, map_rows, opposite_rows, summaries
 from statorhom.diagnose.report_rows import (
+    as_declared,
     constant_rows,
     effect_results,
     feature_rows,
@@ -46,7 +48,7 @@ from statorhom.diagnose.scan import Scan, scan
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.settings import Settings
-from statorhom.physics.action import Action
+from statorhom.physics.declared import DeclaredEffect
 from statorhom.physics.library import all_candidates, library
 from statorhom.results.diagnosis import (
     Alternative,
@@ -83,8 +85,8 @@ def diagnose(
     tests: Mapping[str, MeasuredTest],
     settings: Settings,
     announce: Announce = silent,
-) -> tuple[Diagnosis, Details, tuple[Action, ...]]:
-    """Diagnose a study whose recordings have become tables; the actions are those of the named effects.
+) -> tuple[Diagnosis, Details, tuple[DeclaredEffect, ...]]:
+    """Diagnose a study whose recordings have become tables; named effects come as a study would declare them.
 
     Raises
     ------
@@ -95,10 +97,9 @@ def diagnose(
     with threadpool_limits(limits=1, user_api="blas"), one_line_errors(str(files.path)):
         found = _find(files, geometry, tests, settings, announce)
         diagnosis = _diagnosis(files, found)
-        details = _details(found, time.perf_counter() - began)
-        best = found.best.refit
-        actions = best.hypothesis.actions(best.z) if found.verdict == "named" else ()
-    return diagnosis, details, actions
+        details = _details(files, found, time.perf_counter() - began)
+        named = as_declared(found.best) if found.verdict == "named" else ()
+    return diagnosis, details, named
 
 
 def _find(
@@ -217,7 +218,7 @@ def _probabilities(found: Found) -> dict[str, float]:
     return dict(sorted(((e, w / whole) for e, w in weights.items()), key=lambda p: -p[1]))
 
 
-def _details(found: Found, seconds: float) -> Details:
+def _details(files: StudyFiles, found: Found, seconds: float) -> Details:
     best, e = found.best, found.evidence
     effect = library()[best.effects[0]] if best.effects else None
     seen: dict[str, ScanRow] = {}
@@ -236,8 +237,12 @@ def _details(found: Found, seconds: float) -> Details:
         confusions=() if effect is None else tuple((c.effect, c.separated_by) for c in effect.confused_with),
         features=feature_rows(found.base.refit, best.refit),
         scan=tuple(seen.values())[:20],
-        angles=(),
+        angles=angle_rows(found.base.refit, best),
         constants=constant_rows(found.base.refit, best.refit),
         evidence=tuple((x.candidates[0].label, x.log_evidence) for x in found.explanations),
         seconds=seconds,
+        machine=machine_row(files),
+        maps=() if found.verdict == "none" else map_rows(found.base.refit),
+        opposite=opposite_rows(best) if found.verdict == "named" else (),
+        summaries=summaries(tuple(dict.fromkeys(n for x in found.explanations for n in x.effects))),
     )

@@ -92,17 +92,19 @@ class Hypothesis:
         return tuple(found)
 
     def actions(self, z: FloatArray) -> tuple[Action, ...]:
-        """What the effects do."""
+        """What the effects do, and after them those that the study declares."""
         values = self.effect_values(z)
-        return tuple(
+        own = (
             library()[c.effect].action(c, v, self.study.files)
             for c, v in zip(self.candidates, values, strict=True)
         )
+        return (*own, *self.study.effects)
 
     def mark(self, z: FloatArray) -> tuple[tuple[str, tuple[float, ...]], ...]:
         """What the actions depend on."""
         values = self.effect_values(z)
-        return tuple((c.label, tuple(v.values())) for c, v in zip(self.candidates, values, strict=True))
+        own = ((c.label, tuple(v.values())) for c, v in zip(self.candidates, values, strict=True))
+        return (*own, *((f"declared {i}", ()) for i in range(len(self.study.effects))))
 
     def limits(self) -> tuple[FloatArray, FloatArray]:
         """Of the coordinates; angles have none."""

@@ -14,6 +14,7 @@ from statorhom.geometry.block import BlockGeometry
 from statorhom.geometry.tested_object import ObjectGeometry, object_geometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.described import described
+from statorhom.identify.effect_shifts import effect_shifts
 from statorhom.identify.measured_mac import with_mac
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.priors import Carried
@@ -126,6 +127,7 @@ class Chain:
         setups = [stage_setup(self.files, self.geometry, i) for i in range(last + 1)]
         for setup in setups:
             check_fit(self.files, setup)
+            effect_shifts(self.files, setup)
         return setups
 
     def _step(
@@ -153,7 +155,8 @@ class Chain:
         analytic = analytic_values(
             self.files, setup, _earlier_densities(self.files, self.geometry, setup.index)
         )
-        run = run_stage(setup, carried, analytic, self.settings, workers, announce, BasisStore(self.bases))
+        store, effects = BasisStore(self.bases), effect_shifts(self.files, setup)
+        run = run_stage(setup, carried, analytic, self.settings, workers, announce, store, effects)
         if isinstance(setup.step, BlockGeometry):
             return stage_result(run, state.mass_kg, state.regions, {})
         shapes, rows = free_shapes(run)

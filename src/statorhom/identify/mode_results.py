@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from statorhom.identify.model_error import DEFAULT_RELATIVE_SD, ModelError
-from statorhom.identify.stage_problem import MESH, CorrectedMode, corrected, pair_modes
+from statorhom.identify.stage_problem import MESH, CorrectedMode, corrected, doublet_lines, pair_modes
 from statorhom.identify.stage_run import StageRun
 from statorhom.identify.stage_setup import TestModes
 from statorhom.results.schema import ModeResult
@@ -43,6 +44,9 @@ def _test_results(
     measured = test.modes
     pairing = pair_modes(measured, simulated, with_doubt=True)
     partner = {p.measured: p for p in pairing.pairs}
+    keys = [simulated[partner[i].simulated].key if i in partner else None for i in range(len(measured))]
+    partners = {mode.key: mode for mode in simulated if mode.key is not None}
+    lines = doublet_lines(measured, keys, partners, run.error)
     results = []
     for i, mode in enumerate(measured):
         role = "fitted" if mode in test.fitted else "held_out"
@@ -51,7 +55,15 @@ def _test_results(
             continue
         number = partner[i].simulated
         results.append(
-            _paired(run, test.name, mode, simulated[number], role, partner[i].doubt, shapes.get(number))
+            _paired(
+                run,
+                test.name,
+                mode,
+                _on_line(simulated[number], lines[i]),
+                role,
+                partner[i].doubt,
+                shapes.get(number),
+            )
         )
     top = max(m.frequency_hz for m in measured)
     taken = {p.simulated for p in pairing.pairs}
@@ -59,6 +71,10 @@ def _test_results(
         if number not in taken and alone.mode.visibility >= EXPECTED and alone.frequency_hz <= top:
             results.append(_simulated_alone(test.name, alone, run.error, shapes.get(number)))
     return results
+
+
+def _on_line(mode: CorrectedMode, line: float) -> CorrectedMode:
+    return replace(mode, frequency_hz=mode.frequency_hz * math.exp(line)) if line else mode
 
 
 def _paired(

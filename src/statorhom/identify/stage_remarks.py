@@ -14,6 +14,7 @@ from statorhom.results.schema import ModeResult
 from statorhom.study.response_surface import SurfaceKeys
 from statorhom.study.stages import StageKeys
 from statorhom.study.study import StudyFiles
+from statorhom.study.study_file import FREE
 
 LIKELY = 0.05  # an optimum of this probability is worth a warning
 UNEXPLAINED_PERCENT = 0.5  # of the frequencies: what manufacturing scatter alone does not leave
@@ -36,6 +37,8 @@ def assumptions(run: StageRun) -> tuple[str, ...]:
         lines.append(
             "Modes without an order in the table were assigned by frequency; doubtful ones are marked."
         )
+    if run.effects.names:
+        lines.append(f"The free modes contain what the study declares: {', '.join(run.effects.names)}.")
     if "overhang" in run.materials and "overhang" not in run.setup.materials.sources:
         lines.append("The winding's overhangs have the material of the winding in the slots.")
     return tuple(lines)
@@ -59,6 +62,12 @@ def warnings(run: StageRun, modes: Sequence[ModeResult]) -> list[str]:
             found.append(
                 f"test {m.test!r}: the measured mode at {m.measured_hz:.0f} Hz has no simulated partner"
             )
+    local = [n for n, a in zip(run.effects.names, run.effects.actions, strict=True) if a.changes]
+    if local and any(t.support != FREE for t in run.setup.tests):
+        found.append(
+            f"stage {run.setup.keys.name!r}: its supported tests are predicted without {', '.join(local)}; "
+            "`statorhom diagnose` compares them with it"
+        )
     if not run.basis.holds:
         names = ", ".join(f"({r}, {n})" for r, n in run.basis.broken)
         found.append(

@@ -8,6 +8,7 @@ from statorhom.errors import IdentificationError
 from statorhom.identify.announce import Announce
 from statorhom.identify.bands import highest_hz, mode_names, named_spaces
 from statorhom.identify.basis_check import BasisCheck, check_basis
+from statorhom.identify.effect_shifts import NO_EFFECTS, EffectShifts
 from statorhom.identify.fit_bases import FitBases
 from statorhom.identify.model_error import ModelError, model_error
 from statorhom.identify.optimizers.workers import Workers
@@ -17,7 +18,7 @@ from statorhom.identify.priors import Carried, common_space, stage_space
 from statorhom.identify.refinement import Band, MeshSeries
 from statorhom.identify.settings import Settings
 from statorhom.identify.stage_basis import LOOK
-from statorhom.identify.stage_fit import StageFit, fit_from, fit_stage, search_space
+from statorhom.identify.stage_fit import StageFit, fit_from, search, search_space
 from statorhom.identify.stage_problem import StageProblem
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.identify.surface.cube import Cube
@@ -28,7 +29,8 @@ from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.basis_store import BasisStore
-from statorhom.model.convergence import ModeConvergence
+from statorhom.model.broken.named_response import Response
+from statorhom.model.convergence import ModeConvergence, ModeKey
 from statorhom.model.free_modes import FreeModes
 from statorhom.study.response_surface import SurfaceKeys
 
@@ -53,6 +55,7 @@ class StageRun:
     plain : the optimum that the fitting mesh alone would give, without mesh factors.
     basis : the reduced model verified at the optimum.
     basis_error : largest certified relative frequency error of the reduced model where it was trained.
+    effects : that the study declares.
     surface : the search, where response surfaces did it.
     """
 
@@ -65,6 +68,7 @@ class StageRun:
     plain: Optimum
     basis: BasisCheck
     basis_error: float
+    effects: EffectShifts = NO_EFFECTS
     surface: SurfaceSearch | None = None
 
 
@@ -76,6 +80,7 @@ def run_stage(
     workers: Workers,
     announce: Announce,
     store: BasisStore | None = None,
+    effects: EffectShifts = NO_EFFECTS,
 ) -> StageRun:
     """Identify the constants of a step.
 
@@ -87,6 +92,7 @@ def run_stage(
     settings, workers : of the run.
     announce : told what begins.
     store : where reduced bases are kept between runs.
+    effects : that the study declares.
 
     Raises
     ------
@@ -110,38 +116,39 @@ def run_stage(
     bases = FitBases(model, problems, top, workers, announce, store, settings.shared_bases)
     predicted = mode_names(model, typical, setup.free_modes, BAND_MARGIN)
     bands = _study_bands(setup, names, predicted, len(series.models))
+    band = BAND_MARGIN * highest_hz(setup.free_modes)
 
-    def refine(at: Materials) -> tuple[ModeConvergence, ...]:
-        return series.study(at, bands, workers)
+    def shifts(materials: Materials) -> dict[ModeKey, Response]:
+        return effects.at(model, materials, band, sorted(bands))
 
+    def refine(materials: Materials) -> tuple[ModeConvergence, ...]:
+        return series.study(materials, bands, workers)
+
+    error = ModelError(effects=shifts(typical))
+    keys, acting = setup.keys.identify, shifts if effects.actions else None
     surface: SurfaceSearch | None = None
-    if setup.keys.identify.method == "response_surface":
+    if keys.method == "response_surface":
         full = stator_model(model, typical, LOOK * top, sorted({order for order, _ in names}))
-        surface = _surface_search(setup, searched, full, settings.seed, workers, announce)
+        surface = _by_surface(setup, searched, full, error, settings.seed, workers, announce)
         starts = surface.starts(space)
         reduced = bases.around(surface.problem_over(space), starts)
-        problem = StageProblem(space, setup.materials, reduced, setup.fitted, ModelError())
-        fit = fit_from(problem, starts, surface.evaluations, refine, bases.around, seed=settings.seed)
+        problem = StageProblem(space, setup.materials, reduced, setup.fitted, error)
+        spent = surface.evaluations
     else:
         reduced = bases.over_prior(spread, setup.materials, typical)
-        problem = StageProblem(space, setup.materials, reduced, setup.fitted, ModelError())
-        fit = fit_stage(
-            problem,
-            setup.keys.identify,
-            refine,
-            bases.around,
-            seed=settings.seed,
-            workers=workers,
-            progress=announce("search", setup.keys.identify.evaluations),
-        )
-    run = _finished(setup, fit, series, sorted(bands), workers)
+        problem = StageProblem(space, setup.materials, reduced, setup.fitted, error)
+        progress, spent = announce("search", keys.evaluations), keys.evaluations
+        starts = search(problem, keys, seed=settings.seed, workers=workers, progress=progress)
+    fit = fit_from(problem, starts, spent, refine, bases.around, seed=settings.seed, effects=acting)
+    run = _finished(setup, fit, series, sorted(bands), workers, effects)
     return replace(run, surface=surface)
 
 
-def _surface_search(
+def _by_surface(
     setup: StageSetup,
     searched: ParameterSpace,
     full: FullModel,
+    error: ModelError,
     seed: int,
     workers: Workers,
     announce: Announce,
@@ -150,7 +157,9 @@ def _surface_search(
     surface = keys.response_surface or SurfaceKeys()
     progress = announce("full solves of the design", surface.most_points)
     experiments = Experiments(Cube(searched), setup.materials, full, workers, progress)
-    return search_surface(experiments, setup.fitted, surface, evaluations=keys.evaluations, seed=seed)
+    return search_surface(
+        experiments, setup.fitted, surface, error=error, evaluations=keys.evaluations, seed=seed
+    )
 
 
 def _study_bands(
@@ -164,22 +173,29 @@ def _study_bands(
 
 
 def _finished(
-    setup: StageSetup, fit: StageFit, series: MeshSeries, orders: list[int], workers: Workers
+    setup: StageSetup,
+    fit: StageFit,
+    series: MeshSeries,
+    orders: list[int],
+    workers: Workers,
+    effects: EffectShifts,
 ) -> StageRun:
     best = fit.posterior.best.x
     materials = fit.problem.stage_materials(best)
     band = BAND_MARGIN * highest_hz(setup.free_modes)
     solution = series.solution(materials, band, orders, workers)
     same = {c.key: c.frequency_hz[0] for c in fit.convergence}
-    plain = polish(replace(fit.problem, error=ModelError()), best)
+    shifts = fit.problem.error.effects
+    plain = polish(replace(fit.problem, error=ModelError(effects=shifts)), best)
     return StageRun(
         setup=setup,
         fit=fit,
         model=series.coarsest,
         materials=materials,
         solution=solution,
-        error=model_error(fit.convergence, same),
+        error=replace(model_error(fit.convergence, same), effects=shifts),
         plain=plain,
         basis=check_basis(fit.problem.solve(best), solution),
         basis_error=fit.problem.solver.error,
+        effects=effects,
     )

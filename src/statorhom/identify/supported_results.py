@@ -92,10 +92,9 @@ class _Prediction:
         mesh = run.model.mesh
         top = BAND * max(mode.frequency_hz for mode in test.modes)
         support = support_on(mesh, keys)
-        modes = solve_supported(
-            run.model, run.materials, support, top, margin=MARGIN, mapper=_Mapper(workers)
-        )
-        return cls(run, test, modes, name_supported(modes, run.model, run.materials), shape_grid(mesh))
+        materials = run.effects.materials(run.materials)
+        modes = solve_supported(run.model, materials, support, top, margin=MARGIN, mapper=_Mapper(workers))
+        return cls(run, test, modes, name_supported(modes, run.model, materials), shape_grid(mesh))
 
     def compared(self, first_shape: int) -> tuple[list[ModeResult], list[ModeShape]]:
         """Results of the test, and the shapes of the modes that were paired."""

@@ -12,7 +12,7 @@ from statorhom.mesh.hex_mesh import MIRRORED, HexMesh, PartMesh
 TOLERANCE = 1e-9  # m: nodes on a plane of symmetry
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class MirrorMesh(PartMesh):
     """Mesh of the part of a body beside its planes of symmetry.
 

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, PlainSerializer, model_validator
 
+from statorhom.study.declared_effects import EffectKeys
 from statorhom.study.frozen_map import FrozenMap
 from statorhom.study.keys import Keys, Name, Number, Positive, WholeNumber
 from statorhom.study.modal_tests import ModalTestKeys
@@ -90,3 +91,4 @@ class StageKeys(Keys):
     model: ModelKeys = ModelKeys()
     tests: tuple[ModalTestKeys, ...] = ()
     identify: IdentifyKeys = IdentifyKeys()
+    effects: tuple[EffectKeys, ...] = ()

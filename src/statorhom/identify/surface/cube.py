@@ -10,7 +10,7 @@ from statorhom.identify.bounds import Array
 from statorhom.identify.parameters import ParameterSpace
 
 Z90 = 1.6448536269514722  # the standard normal's 95 % quantile
-ON_FACE = 1e-3  # of the cube's half edge: this close a point lies on its face
+ON_FACE = 0.02  # of the cube's half edge: this close a point lies on its face
 
 
 @dataclass(frozen=True)

@@ -30,6 +30,7 @@ JUDGED = 5  # points of the design that come nearest to the measurement and say 
 MOST_PAIRINGS = 3
 STARTS = 4  # points of a front that are polished, and optima that are followed up
 HOPELESS = 16.0  # squared distance of an optimum to the best one; the surfaces are as coarse as a search is
+NO_ERROR = ModelError()
 
 Keys = tuple[ModeKey | None, ...]
 
@@ -67,9 +68,9 @@ class SurfaceSearch:
 
     @property
     def at_limits(self) -> tuple[str, ...]:
-        """Constants that the best optimum has at the end of their range, or beyond."""
-        cube = self.problem.surfaces.cube
-        return cube.on_face(cube.points(self.optima[0]))
+        """Constants that the front's best point has at the end of their range: a prior would draw them inwards."""
+        best = int(np.argmin(np.sum(self.front.objectives**2, axis=1)))
+        return self.problem.surfaces.cube.on_face(self.front.points[best])
 
 
 def search_surface(
@@ -79,6 +80,7 @@ def search_surface(
     *,
     evaluations: int,
     seed: int,
+    error: ModelError = NO_ERROR,
 ) -> SurfaceSearch:
     """Search the box of an experiment's cube.
 
@@ -89,6 +91,7 @@ def search_surface(
     keys : of the study.
     evaluations : of the surfaces.
     seed : of design and NSGA-II.
+    error : what declared effects do to the modes.
 
     Raises
     ------
@@ -103,13 +106,13 @@ def search_surface(
         experiments,
         partial(latin_hypercube, first=keys.points) if keys.points else DESIGNS[keys.design],
         _fit(keys, seed),
-        lambda surfaces, points: _wanted(_problem(surfaces, experiments, measured), points),
+        lambda surfaces, points: _wanted(_problem(surfaces, experiments, measured, error), points),
         limit=keys.largest_error_percent / 100.0,
         most_points=keys.most_points,
         least_points=_least_points(keys, experiments.cube.dimension),
         seed=seed,
     )
-    problem = _problem(gate.surfaces, experiments, measured)
+    problem = _problem(gate.surfaces, experiments, measured, error)
     pairings = _pairings(problem, list(gate.points))
     share = evaluations // len(pairings)
     fronts = [
@@ -144,14 +147,14 @@ def _least_points(keys: SurfaceKeys, dimension: int) -> int:
 
 
 def _problem(
-    surfaces: ModeSurfaces, experiments: Experiments, measured: Sequence[MeasuredMode]
+    surfaces: ModeSurfaces, experiments: Experiments, measured: Sequence[MeasuredMode], error: ModelError
 ) -> SurfaceProblem:
     return SurfaceProblem(
         experiments.cube.space,
         experiments.materials,
         surfaces,  # type: ignore[arg-type]
         tuple(measured),
-        ModelError(),
+        error,
         surfaces=surfaces,
     )
 

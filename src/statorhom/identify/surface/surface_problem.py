@@ -58,6 +58,6 @@ class SurfaceProblem(StageProblem):
         errors = np.full((len(f), len(self.measured)), 100.0)
         for i, (measured, key) in enumerate(zip(self.measured, keys, strict=True)):
             if key in self.surfaces.keys:
-                column = f[:, self.surfaces.keys.index(key)] * self.error.factor(key)
+                column = f[:, self.surfaces.keys.index(key)] * self.error.factor(key) * self.error.effect(key)
                 errors[:, i] = 100.0 * np.abs(column / measured.frequency_hz - 1.0)
         return errors
