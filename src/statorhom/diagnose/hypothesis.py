@@ -136,7 +136,9 @@ class Hypothesis:
             for test in stage.tests:
                 found = self._predicted(stage, test, values, actions, self.mark(z))
                 if test.support != FREE:
-                    reference = supported_test(self.study.files, stage, test, actions, self.mark(z))
+                    reference = supported_test(
+                        self.study.files, stage, test, actions, self.mark(z), shapes=True
+                    )
                     held[test.name] = () if reference is None else partners(stage, test, reference, found)
                 else:
                     keys = assigned(test, self.modes(test, actions), found)
@@ -171,7 +173,7 @@ class Hypothesis:
         """Features whether seen or not, and the predictions behind them; `moved` stands in for these."""
         values, actions = self.study.constants.values(z[: self.constants]), self.actions(z)
         assert self.held is not None
-        found = self._densities(values, actions)
+        found = self.densities(values, actions)
         told: dict[str, tuple[StageModel, Predictions]] = {}
         for stage in self.study.stages:
             known: dict[str, Mapping[ModeKey, PredictedMode]] = {}
@@ -245,7 +247,7 @@ class Hypothesis:
             found += shift_features(test, labels, stage.amplitudes, sensor)
         return found
 
-    def _densities(self, values: Mapping[str, float], actions: Sequence[Action]) -> list[Feature]:
+    def densities(self, values: Mapping[str, float], actions: Sequence[Action]) -> list[Feature]:
         """What is known of the lamination's density."""
         corrected: dict[str, float] = {}
         dimensions: dict[str, float] = {}

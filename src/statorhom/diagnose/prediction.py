@@ -18,7 +18,7 @@ from statorhom.model.convergence import ModeKey, mode_keys
 from statorhom.model.stator_mode import StatorMode
 from statorhom.physics.action import Action
 
-KEPT = 32  # responses per stage
+KEPT = 256  # responses per stage
 RATE_HZ = (
     400.0,
     1000.0,
@@ -93,11 +93,15 @@ def predicted(
     values: Mapping[str, float],
     actions: Sequence[Action],
     test: str | None = None,
-    mark: Hashable = None,
+    mark: Sequence[Hashable] | None = None,
 ) -> dict[ModeKey, PredictedMode]:
-    """Named modes of a free test, by key; equal marks say that the actions are the same."""
+    """Named modes of a free test, by key; `mark` has one entry per action: equal ones say that it is the same."""
     materials = acted_materials(study, stage, values, actions, test)
     here = [a for a in actions if a.touches(stage.name, test)]
+    if mark is not None:
+        # what breaks no symmetry may differ
+        pairs = zip(actions, mark, strict=True)
+        mark = tuple(m for a, m in pairs if a.changes and a.touches(stage.name, test))
     rates = [a for a in here if a.modulus_at]
     logs = _rated(stage, materials, rates[0]) if rates else _plain(stage, materials)
     shifts = broken_responses(stage, here, None if mark is None else (test, mark))

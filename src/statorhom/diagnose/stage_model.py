@@ -91,7 +91,8 @@ class StageModel:
     @cached_property
     def broken(self) -> SymmetricBasis:
         """Modes of all harmonics at the reference, for what breaks the symmetry."""
-        return symmetric_basis(self.model, self.reference, self.ring.highest_hz, margin=BROKEN_MARGIN)
+        top = self.ring.highest_hz
+        return symmetric_basis(self.model, self.reference, top, margin=BROKEN_MARGIN, certified=False)
 
     @cached_property
     def reference_keys(self) -> Mapping[ModeKey, StatorMode]:

@@ -17,7 +17,6 @@ from statorhom.identify.stage_run import StageRun
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.materials.density import RegionDensity
 from statorhom.materials.plausibility import density_warning
-from statorhom.materials.symmetry import constant_names
 from statorhom.model.convergence import ModeConvergence
 from statorhom.results.schema import (
     Constant,
@@ -77,7 +76,7 @@ def _fitted_region(run: StageRun, source: str, estimates: Mapping[str, Estimate]
     density = run.setup.densities["winding" if source == "overhang" else source]
     matrix = run.materials[source].hooke.matrix
     engineering = {}
-    for constant in constant_names(symmetry):
+    for constant in run.setup.materials.constants[source]:
         e = estimates[f"{source}.{constant}"]
         engineering[constant] = Constant(
             value=e.value, ci90=(e.low90, e.high90), status=e.status, narrowed=e.spread_ratio

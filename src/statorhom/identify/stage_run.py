@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from statorhom.errors import IdentificationError
 from statorhom.identify.announce import Announce
-from statorhom.identify.bands import highest_hz, mode_names
+from statorhom.identify.bands import highest_hz, mode_names, named_spaces
 from statorhom.identify.basis_check import BasisCheck, check_basis
 from statorhom.identify.fit_bases import FitBases
 from statorhom.identify.model_error import ModelError, model_error
@@ -19,10 +19,10 @@ from statorhom.identify.stage_fit import StageFit, fit_stage, search_space
 from statorhom.identify.stage_problem import StageProblem
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
+from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.basis_store import BasisStore
 from statorhom.model.free_modes import FreeModes
-from statorhom.model.harmonic import problems_of
 
 ModeName = tuple[int, int | None]  # order and node planes
 BAND_MARGIN = 1.15
@@ -49,7 +49,7 @@ class StageRun:
 
     setup: StageSetup
     fit: StageFit
-    model: AffineModel
+    model: AffineModel[PartMesh]
     materials: Materials
     solution: FreeModes
     error: ModelError
@@ -95,7 +95,7 @@ def run_stage(
     typical = setup.materials.of(searched.values(searched.start))
     top = highest_hz(setup.fitted)
     names = mode_names(model, typical, setup.fitted)
-    problems = problems_of(model.mesh, names)
+    problems = named_spaces(model.mesh, names)
     spread = common_space(*known) if settings.shared_bases else space
     bases = FitBases(model, problems, top, workers, announce, store, settings.shared_bases)
     reduced = bases.over_prior(spread, setup.materials, typical)

@@ -21,6 +21,9 @@ class ModelKeys(Keys):
     overhang: Symmetry | None = None
     frame: Symmetry | None = None
     machine: Symmetry | None = None
+    plate: Symmetry | None = None
+    beam: Symmetry | None = None
+    tube: Symmetry | None = None
 
     @property
     def declared(self) -> dict[Region, Symmetry]:
