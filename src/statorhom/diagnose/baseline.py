@@ -74,7 +74,9 @@ def baseline(
     if not tested:
         raise IdentificationError(f"{files.path}: no stage has a test; there is nothing to diagnose")
     orders = sorted({m.order for t in tests.values() for m in t.modes if m.order is not None and m.order > 0})
-    constants = study_constants(setups, [r for r in orders if r <= MAX_SCATTER_ORDER], SCATTER_SD)
+    damped = any(m.loss_factor is not None for t in tests.values() for m in t.modes)
+    split = [r for r in orders if r <= MAX_SCATTER_ORDER]
+    constants = study_constants(setups, split, SCATTER_SD, with_losses=damped)
     effects = tuple(d.action for d in declared_effects(files))
     study = StudyModel(files, geometry, constants, (), effects)
     z = np.zeros(len(constants))

@@ -32,7 +32,7 @@ from statorhom.diagnose.explanations import (
 from statorhom.diagnose.held_out import HeldOut, held_out
 from statorhom.diagnose.held_out_name import held_out_names, renames_alone
 from statorhom.diagnose.measured import MeasuredTest
-from statorhom.diagnose.next_measurement import next_measurement
+from statorhom.diagnose.next_measurement import Choice, next_measurement
 from statorhom.diagnose.one_line_errors import one_line_errors
 from statorhom.diagnose.place_rows import angle_rows, machine_row, map_rows, opposite_rows, summaries
 from statorhom.diagnose.report_rows import (
@@ -97,8 +97,12 @@ def diagnose(
     began = time.perf_counter()
     with threadpool_limits(limits=1, user_api="blas"), one_line_errors(str(files.path)):
         found = _find(files, geometry, tests, settings, announce)
-        diagnosis = _diagnosis(files, found)
-        details = _details(files, found, time.perf_counter() - began)
+        undecided = found.verdict == "ambiguous"
+        choice = (
+            next_measurement(found.best, others(found.best, found.explanations)) if undecided else Choice()
+        )
+        diagnosis = _diagnosis(files, found, choice)
+        details = _details(files, found, choice, time.perf_counter() - began)
         named = as_declared(found.best) if found.verdict == "named" else ()
     return diagnosis, details, named
 
@@ -184,7 +188,7 @@ def _evidence(
     )
 
 
-def _diagnosis(files: StudyFiles, found: Found) -> Diagnosis:
+def _diagnosis(files: StudyFiles, found: Found, choice: Choice) -> Diagnosis:
     base, best = found.base.refit, found.best
     chances = _probabilities(found)
     named = found.verdict == "named"
@@ -219,7 +223,7 @@ def _diagnosis(files: StudyFiles, found: Found) -> Diagnosis:
                 after_rms_percent=unseen.after_rms,
             ),
         ),
-        next_measurement=next_measurement(best, others(best, found.explanations)) if ambiguous else None,
+        next_measurement=choice.best,
     )
 
 
@@ -233,7 +237,7 @@ def _probabilities(found: Found) -> dict[str, float]:
     return dict(sorted(((e, w / whole) for e, w in weights.items()), key=lambda p: -p[1]))
 
 
-def _details(files: StudyFiles, found: Found, seconds: float) -> Details:
+def _details(files: StudyFiles, found: Found, choice: Choice, seconds: float) -> Details:
     best, e = found.best, found.evidence
     effect = library()[best.effects[0]] if best.effects else None
     seen: dict[str, ScanRow] = {}
@@ -256,6 +260,7 @@ def _details(files: StudyFiles, found: Found, seconds: float) -> Details:
         constants=constant_rows(found.base.refit, best.refit),
         evidence=tuple((x.candidates[0].label, x.log_evidence) for x in found.explanations),
         seconds=seconds,
+        options=choice.options,
         machine=machine_row(files),
         maps=() if found.verdict == "none" else map_rows(found.base.refit),
         opposite=opposite_rows(best) if found.verdict == "named" else (),

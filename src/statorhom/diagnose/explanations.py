@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy.special import logsumexp
@@ -54,13 +55,12 @@ class Explanation:
         What is known of the constants counts like a measurement; how large an effect usually is does not: for that
         there are physical limits.
         """
-        return float(chi2.sf(self._misfit, max(len(self.refit.jacobian), 1)))
+        return float(chi2.sf(self._misfit, max(len(self._residuals[0]), 1)))
 
     @property
     def adequacy_but_one(self) -> float:
         """The same without the worst row, against the chance of such a rest: one gross error is no missing physics."""
-        r = self.refit
-        rows, worst = len(r.jacobian), float(np.max(r.hypothesis.residuals(r.z) ** 2, initial=0.0))
+        rows, worst = len(self._residuals[0]), float(np.max(self._residuals[0] ** 2, initial=0.0))
         if rows < ROWS:
             return self.adequacy
         draws = np.random.default_rng(0).chisquare(1.0, (DRAWS, rows))
@@ -72,7 +72,15 @@ class Explanation:
         r = self.refit
         effect = slice(r.hypothesis.constants, None)
         unusual = float(np.sum(r.hypothesis.prior_weights[effect] * r.z[effect] ** 2))
-        return r.objective - r.hypothesis.missed - unusual
+        return r.objective - r.hypothesis.missed - unusual - float(np.sum(self._residuals[1] ** 2))
+
+    @cached_property
+    def _residuals(self) -> tuple[np.ndarray, np.ndarray]:
+        """Those that count, and those of loss factors: these scatter as they like, and would hide a frequency."""
+        found = self.refit.hypothesis.features(self.refit.z)
+        lossy = np.array([f.kind == "loss" for f in found], dtype=bool)
+        residuals = np.array([f.residual for f in found])
+        return residuals[~lossy], residuals[lossy]
 
 
 def nothing(base: Refit) -> Explanation:
