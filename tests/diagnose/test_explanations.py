@@ -12,10 +12,15 @@ from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.refit import Refit
 
 
+def rows(residuals: np.ndarray) -> list[SimpleNamespace]:
+    """Features that are no loss factors."""
+    return [SimpleNamespace(kind="frequency", residual=r) for r in residuals.tolist()]
+
+
 def explanation(constant: float, magnitude: float) -> Explanation:
     """Ten features that are met to 8 units of squared residual; a constant and an effect's magnitude."""
     hypothesis = SimpleNamespace(
-        constants=1, prior_weights=np.ones(2), missed=3.0, residuals=lambda _: np.full(10, np.sqrt(0.8))
+        constants=1, prior_weights=np.ones(2), missed=3.0, features=lambda _: rows(np.full(10, np.sqrt(0.8)))
     )
     objective = 8.0 + 3.0 + constant**2 + magnitude**2
     refit = Refit(hypothesis, np.array([constant, magnitude]), np.zeros((10, 2)), 8.0, objective)  # type: ignore[arg-type]
@@ -33,7 +38,9 @@ def test_an_implausible_constant_is_one() -> None:
 def with_residuals(residuals: list[float]) -> Explanation:
     """No constants at all."""
     r = np.array(residuals)
-    hypothesis = SimpleNamespace(constants=0, prior_weights=np.zeros(0), missed=0.0, residuals=lambda _: r)
+    hypothesis = SimpleNamespace(
+        constants=0, prior_weights=np.zeros(0), missed=0.0, features=lambda _: rows(r)
+    )
     misfit = float(r @ r)
     refit = Refit(hypothesis, np.zeros(0), np.zeros((len(r), 0)), misfit, misfit)  # type: ignore[arg-type]
     return Explanation((), refit, 0.0)
