@@ -78,6 +78,8 @@ def _alternatives(d: Diagnosis, details: Details) -> list[Text]:
 
 
 def _summary(effect: str, details: Details) -> str:
+    if effect == "none":
+        return "the declared model is right, and the misfit an accident"
     parts = [details.summaries.get(name, effect_words(name)) for name in effect.split("+")]
     return "; and ".join(parts)
 
