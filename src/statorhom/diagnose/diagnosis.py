@@ -22,10 +22,10 @@ from statorhom.diagnose.decision import (
 )
 from statorhom.diagnose.explanations import (
     ADEQUATE,
+    WORTH,
     Explanation,
     effect_evidence,
     nothing,
-    sharpened,
     single_effects,
     with_second,
 )
@@ -44,7 +44,8 @@ from statorhom.diagnose.report_rows import (
     mismatch,
 )
 from statorhom.diagnose.resampling import stability
-from statorhom.diagnose.scan import Scan, scan
+from statorhom.diagnose.scan import Scan, rescanned, scan
+from statorhom.diagnose.sharper import refined, sharpened
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.settings import Settings
@@ -124,11 +125,9 @@ def _find(
     progress = announce("explanations", 1)
     found = single_effects(base.free, signatures, [c for c in candidates if not c.parameters], counts)
     if found and found[0].adequacy < ADEQUATE:
-        used = found[0].effects
-        second = [s for s in signatures.worth_refitting(SECONDS, 0.0) if s.candidate.effect not in used]
-        pairs = with_second(found[0], second[:SECONDS], counts)
-        found += [p for p in pairs if p.log_evidence > found[0].log_evidence + PAIR_GAIN]
-        found.sort(key=lambda e: -e.log_evidence)
+        found = refined(found, base.valleys, counts)
+    if found and found[0].adequacy < ADEQUATE:
+        found = _pairs(base, found, signatures, counts) + found
     progress(1)
     none = nothing(base.refit)
     best = found[0] if found else none
@@ -137,6 +136,22 @@ def _find(
         best = replace(sharpened(best), log_evidence=best.log_evidence)
     evidence = _evidence(base, best, none, found, signatures, settings.seed)
     return Found(decide(evidence), best, tuple(found), signatures, evidence, base)
+
+
+def _pairs(
+    base: Baseline, found: Sequence[Explanation], signatures: Scan, counts: dict[str, int]
+) -> list[Explanation]:
+    """The best explanation with one more effect, the best first; none where modes that it did not see contradict."""
+    first = found[0]
+    left = rescanned(signatures, base.free, first.refit).worth_refitting(SECONDS, WORTH)
+    second = [s for s in left if s.candidate.effect not in first.effects]
+    pairs = with_second(first, second[:SECONDS], counts)
+    pairs = [p for p in pairs if p.log_evidence > first.log_evidence + PAIR_GAIN]
+    if not pairs:
+        return []
+    # both effects have to hold: the second one against the first alone
+    unseen = held_out(first.refit, pairs[0])
+    return pairs if unseen.falls and not unseen.worsens else []
 
 
 def _evidence(
@@ -165,7 +180,7 @@ def _evidence(
         over_nothing=over,
         over_others=float(own - next_best) if np.isfinite(next_best) else float("inf"),
         held_out=unseen,
-        adequacy=best.adequacy,
+        adequacy=best.adequacy_but_one,
         nothing_adequacy=none.adequacy,
         within=within_bounds(best),
         stability=stability([common, none, *rest[: COMPARED - 2]], seed),

@@ -8,16 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import cast
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from statorhom.errors import IdentificationError
+from statorhom.geometry.stator import StepGeometry
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.materials.hooke import Hooke
-from statorhom.mesh.hex_mesh import HalfPitchMesh, PartMesh
-from statorhom.model.affine import AffineModel, Material, Materials
+from statorhom.mesh.hex_mesh import PartMesh
+from statorhom.model.affine import AffineModel, Material, Materials, stator_model
 from statorhom.model.broken.basis import symmetric_basis
 from statorhom.model.broken.named_response import Response, columns_of, named_response
 from statorhom.model.broken.solve import solve_broken
@@ -63,9 +63,13 @@ class EffectShifts:
         SolverError
             If the effects leave a mass or stiffness that is not definite.
         """
-        if not self.actions or not isinstance(model.mesh, HalfPitchMesh):
-            return {}  # effects are those of stators
-        model = cast(AffineModel, model)
+        if not self.actions:
+            return {}
+        return self._at(stator_model(model), materials, highest_hz, orders)
+
+    def _at(
+        self, model: AffineModel, materials: Materials, highest_hz: float, orders: Sequence[int]
+    ) -> dict[ModeKey, Response]:
         with threadpool_limits(limits=1, user_api="blas"):
             plain = mode_keys(solve_free(model, materials, highest_hz, orders).modes)
             acted = self.materials(materials)
@@ -99,7 +103,9 @@ class EffectShifts:
         modes = solve_broken(basis, changes, tolerance=None)
         found = {}
         for key, mode in mode_keys(solution.modes).items():
-            place = columns_of(basis, cast(Harmonic, solution.harmonics[mode.problem]), mode.frequency_hz)
+            space = solution.harmonics[mode.problem]
+            assert isinstance(space, Harmonic)
+            place = columns_of(basis, space, mode.frequency_hz)
             response = None if place is None else named_response(modes, place)
             if response is not None:
                 found[key] = response
@@ -143,6 +149,10 @@ def effect_shifts(files: StudyFiles, setup: StageSetup) -> EffectShifts:
         If an effect cannot be in the frequencies that a fit compares.
     """
     here = [d for d in declared_effects(files) if d.action.touches(setup.keys.name)]
+    if here and not isinstance(setup.step, StepGeometry):
+        raise IdentificationError(
+            f"{files.path}: stages[{setup.keys.name}].effects: plates and beams have no effects yet; delete them"
+        )
     for effect in here:
         unknown = beyond(effect.action, UNDERSTOOD)
         if unknown is not None:
