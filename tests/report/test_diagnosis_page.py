@@ -59,9 +59,9 @@ def test_every_verdict_is_told_in_plain_words(verdict: Verdict, places: bool) ->
     shown = page(verdict, places)
     assert titles(shown) == [
         "What the model left out",
-        "Where",
+        "Where the model fails",
         "What was measured, and what the model says",
-        "How sure that is",
+        "How sure the diagnosis is",
         "Before and after",
     ]
     said = words_of(shown)
@@ -101,7 +101,7 @@ def test_one_report_holds_identification_and_diagnosis(tmp_path: Path) -> None:
     write_report(folder)
     both = titles((folder / "report.html").read_text(encoding="utf-8"))
     assert [t for t in both if t in identified] == identified
-    assert "What the model left out" in both
+    assert both[:2] == [identified[0], "What the model left out"]
     assert (folder / "report.pdf").read_bytes().startswith(b"%PDF-")
     alone = tmp_path / "alone"
     alone.mkdir()

@@ -51,7 +51,7 @@ def sure_section(d: Diagnosis, e: Details) -> Section:
         blocks.append(Definitions(items))
     if e.citation and d.verdict == "named":
         blocks.append(Paragraph(text(f"More on the effect: {e.citation}."), "note"))
-    return Section("How sure that is", tuple(blocks))
+    return Section("How sure the diagnosis is", tuple(blocks))
 
 
 def _chances(chances: list[tuple[str, float, bool]]) -> Picture:

@@ -41,7 +41,7 @@ def _explained(d: Diagnosis, e: Details) -> Text:
     return text(
         "The model as the study declares it cannot meet the measurements with any constants, and no effect in the "
         "program’s library passes all the tests below. The constants identified from these measurements are not to be "
-        "trusted; the next section says where the contradiction lies."
+        "trusted; “Where the model fails” says what contradicts it."
     )
 
 
