@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from statorhom.errors import IdentificationError
 from statorhom.identify.announce import Announce
 from statorhom.identify.bands import highest_hz, mode_names
-from statorhom.identify.basis_check import BasisCheck, check_basis
+from statorhom.identify.basis_check import BasisCheck, check_basis, together
 from statorhom.identify.fit_bases import FitBases
 from statorhom.identify.model_error import ModelError, model_error
 from statorhom.identify.optimizers.workers import Workers
@@ -43,7 +43,7 @@ class StageRun:
     solution : free modes of the fitting mesh at the optimum.
     error : mesh factors of the full model's modes.
     plain : the optimum that the fitting mesh alone would give, without mesh factors.
-    basis : the reduced model verified at the optimum.
+    basis : the reduced model verified on the full one at every optimum of the posterior.
     basis_error : largest certified relative frequency error of the reduced model where it was trained.
     """
 
@@ -133,6 +133,14 @@ def _finished(
     solution = series.solution(materials, band, orders, workers)
     same = {c.key: c.frequency_hz[0] for c in fit.convergence}
     plain = polish(replace(fit.problem, error=ModelError()), best)
+    # what is reported beside the best optimum is held against the full model as well
+    rivals = [
+        check_basis(
+            fit.problem.solve(part.optimum.x),
+            series.solution(fit.problem.stage_materials(part.optimum.x), band, orders, workers),
+        )
+        for part in fit.posterior.components[1:]
+    ]
     return StageRun(
         setup=setup,
         fit=fit,
@@ -141,6 +149,6 @@ def _finished(
         solution=solution,
         error=model_error(fit.convergence, same),
         plain=plain,
-        basis=check_basis(fit.problem.solve(best), solution),
+        basis=together([check_basis(fit.problem.solve(best), solution), *rivals]),
         basis_error=fit.problem.solver.error,
     )
