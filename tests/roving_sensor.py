@@ -1,4 +1,7 @@
-"""FRFs of a ring that a roving accelerometer loads, exact: the sensor's inertia force adds to the hammer's."""
+"""FRFs of a ring that a roving accelerometer loads, exact: the sensor's inertia forces add to the hammer's.
+
+The sensor's mass is moved in all directions; what it measures is the radial motion alone.
+"""
 
 from __future__ import annotations
 
@@ -8,15 +11,16 @@ import numpy as np
 
 from statorhom.recordings.dof import Dof
 from statorhom.recordings.frf_set import FrfSet
-from synthetic_frfs import frf_set, ring_shape
+from synthetic_frfs import LENGTH_M, RADIUS_M, frf_set, ring_shape
 
 POLES = ((1000.0, 0.004), (1600.0, 0.004))
 LINES = np.arange(850.0, 1750.0)
 MASS_KG = 0.012
+YOKE_M = 0.011
 
 
 def shapes(points: list[Dof], split: bool = False) -> tuple[list[tuple[float, float]], np.ndarray]:
-    """Poles and mass-normalised shapes of two doublets (2, 0) and (2, 1) of a ring of about 2 kg."""
+    """Poles and mass-normalised radial shapes of two doublets (2, 0) and (2, 1) of a ring of about 2 kg."""
     poles, rows = [], []
     for axial, (frequency, loss) in enumerate(POLES):
         for turn in (0.0, np.pi / 4):
@@ -25,15 +29,35 @@ def shapes(points: list[Dof], split: bool = False) -> tuple[list[tuple[float, fl
     return poles, np.array(rows)
 
 
+def directions(points: list[Dof]) -> np.ndarray:
+    """Radial, tangential and axial shapes, (modes, points, 3): a yoke that bends without stretching or shear."""
+    theta = np.array([point.angle for point in points], dtype=float)
+    z = np.array([point.position[2] for point in points if point.position is not None])
+    lever = (RADIUS_M - YOKE_M / 2) / 4 + YOKE_M / 2
+    rows = []
+    for axial in range(len(POLES)):
+        along = np.cos(axial * np.pi * z / LENGTH_M)
+        slope = -axial * np.pi / LENGTH_M * np.sin(axial * np.pi * z / LENGTH_M)
+        for turn in (0.0, np.pi / 4):
+            phase = 2 * (theta - 0.1 - turn)
+            around = np.cos(phase)
+            rows.append(
+                np.stack([along * around, -along * np.sin(phase) / 2, -lever * slope * around], axis=1)
+            )
+    return np.array(rows)
+
+
 def loaded_frfs(points: list[Dof], mass_kg: float = MASS_KG, noise: float = 0.004) -> FrfSet:
-    """x_k = h_kj F + h_kk ω² m x_k for a sensor of mass m at point k; no residual terms."""
+    """x_k = h_kj F + H_kk ω² m x_k for a sensor of mass m at point k, x_k in three directions; no residual terms."""
     poles, modes = shapes(points)
     bare = frf_set(LINES, points, [0], poles, modes, residuals=(0.0, 0.0))
     squared = (2 * np.pi * LINES) ** 2
-    own = np.zeros((len(points), len(LINES)), dtype=complex)
-    for (frequency, loss), shape in zip(poles, modes, strict=True):
-        own += shape[:, None] ** 2 / ((2 * np.pi * frequency) ** 2 * (1 + 1j * loss) - squared)
-    loaded = bare.accelerance / (1 - squared * mass_kg * own)
+    moved = directions(points)
+    curves = np.array([1 / ((2 * np.pi * f) ** 2 * (1 + 1j * loss) - squared) for f, loss in poles])
+    force = np.einsum("mkd,m,ml->kld", moved, modes[:, 0], curves)
+    own = np.einsum("mkd,mke,ml->klde", moved, moved, curves)
+    motion = np.linalg.solve(np.eye(3) - mass_kg * squared[:, None, None] * own, force[..., None])[..., 0, 0]
+    loaded = -squared * motion
     rng = np.random.default_rng(3)
     normal = rng.normal(size=(2, *loaded.shape)) / np.sqrt(2)
     sd = np.hypot(noise * np.abs(loaded), 3e-4 * np.abs(loaded).max())

@@ -84,5 +84,8 @@ def _table(measured: MeasuredModes) -> pd.DataFrame:
     ]
     table = pd.DataFrame(rows)
     if measured.sensor is not None:
-        table["frequency_without_sensor_hz"] = measured.bare_hz
+        numbers = table["mode"] - 1
+        for column, position in (("frequency_without_sensor_hz", 0), ("frequency_without_sensor_sd_hz", 1)):
+            found = {number: pair[position] for number, pair in measured.sensor.bare.items()}
+            table[column] = numbers.map(found)
     return table.astype({"order": "Int64", "axial": "Int64"}) if rows else table

@@ -113,3 +113,19 @@ def test_control_characters_of_a_cell_do_not_reach_the_terminal(tmp_path: Path) 
     with pytest.raises(InputFileError) as caught:
         read_modal_table(table(tmp_path, "frequency_hz\n\x1b[31mred\n"))
     assert str(caught.value).isprintable()
+
+
+def test_uncertainties_and_frequencies_without_the_sensor_arrive(tmp_path: Path) -> None:
+    text = (
+        "frequency_hz,damping_ratio,damping_ratio_sd,frequency_without_sensor_hz,frequency_without_sensor_sd_hz\n"
+        "1926.1,0.002,0.0001,1936.3,0.6\n1407.8,0.002,,,\n"
+    )
+    first, second = read_modal_table(table(tmp_path, text)).modes
+    assert (first.loss_factor, first.loss_factor_sd) == (0.004, 0.0002)
+    assert (first.frequency_without_sensor_hz, first.frequency_without_sensor_sd_hz) == (1936.3, 0.6)
+    assert second.loss_factor_sd is second.frequency_without_sensor_hz is None
+
+
+def test_two_kinds_of_uncertainty_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputFileError, match="damping_ratio_sd and loss_factor_sd; keep one"):
+        read_modal_table(table(tmp_path, "frequency_hz,damping_ratio_sd,loss_factor_sd\n1,0.1,0.1\n"))

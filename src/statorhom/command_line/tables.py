@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.markup import escape
@@ -51,15 +51,26 @@ def print_measured(table: pd.DataFrame) -> None:
     """Extracted modes with their standard deviations."""
     import pandas as pd
 
-    shown = Table("mode", "Hz", "± Hz", "loss %", "± %", "(r, n)", "share %", "MPC %", box=None)
+    bare = "frequency_without_sensor_hz" in table.columns
+    further = ("without sensor Hz", "± Hz") if bare else ()
+    shown = Table("mode", "Hz", "± Hz", "loss %", "± %", "(r, n)", "share %", "MPC %", *further, box=None)
     for row in table.to_dict("records"):
         name = "" if pd.isna(row["order"]) else f"({row['order']}, {_or(row['axial'], '?')})"
         share = "" if pd.isna(row["share"]) else f"{100 * row['share']:.1f}"
         loss = f"{100 * row['loss_factor']:.3g}", f"{100 * row['loss_factor_sd']:.1g}"
         frequency = f"{row['frequency_hz']:.3f}", f"{row['frequency_sd_hz']:.1g}"
         collinearity = f"{100 * row['phase_collinearity']:.1f}"
-        shown.add_row(str(row["mode"]), *frequency, *loss, name, share, collinearity)
+        shown.add_row(
+            str(row["mode"]), *frequency, *loss, name, share, collinearity, *(_bare(row) if bare else ())
+        )
     Console().print(shown)
+
+
+def _bare(row: Mapping[Any, Any]) -> tuple[str, str]:
+    import pandas as pd
+
+    frequency, sd = row["frequency_without_sensor_hz"], row["frequency_without_sensor_sd_hz"]
+    return ("", "") if pd.isna(frequency) else (f"{frequency:.3f}", f"{sd:.1g}")
 
 
 def _or(value: object, unknown: str) -> str:

@@ -1,4 +1,8 @@
-"""Derivatives of a hypothesis's residuals: constants by analytic slopes of the frequencies, effects by differences."""
+"""Derivatives of a hypothesis's residuals: constants by analytic slopes of the frequencies, effects by differences.
+
+A frequency or a split follows the constants by its own mode's ln f alone (`statorhom.diagnose.frequency_slopes`). What
+follows them otherwise is moved constant by constant.
+"""
 
 from __future__ import annotations
 
@@ -9,15 +13,20 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.diagnose.features import Feature
+from statorhom.diagnose.frequency_slopes import STEP, by_frequency, concerns, slopes_of
 from statorhom.diagnose.hypothesis import Hypothesis, Told
-from statorhom.diagnose.prediction import PredictedMode, acted_materials, material_vector
+from statorhom.diagnose.prediction import (
+    PredictedMode,
+    acted_materials,
+    material_vector,
+    slopes_by_materials,
+)
 from statorhom.diagnose.stage_model import StageModel
-from statorhom.diagnose.study_model import StudyModel
 from statorhom.errors import StatorhomError
 from statorhom.model.convergence import ModeKey
 
 FloatArray = npt.NDArray[np.float64]
-STEP, EFFECT_STEP = 1e-3, 1e-2  # of internal coordinates
+EFFECT_STEP = 1e-2  # of internal coordinates
 
 
 def jacobian(h: Hypothesis, z: FloatArray) -> FloatArray:
@@ -26,21 +35,12 @@ def jacobian(h: Hypothesis, z: FloatArray) -> FloatArray:
     seen = [i for i, f in enumerate(base) if h.sees(f)]
     start = [base[i] for i in seen]
     columns = []
+    known = by_frequency(h, z, told, base)
     for j in range(h.constants):
-        columns.append(_constant_column(h, z, j, told, seen, start))
+        columns.append(known[j][seen] if j in known else _constant_column(h, z, j, told, seen, start))
     for j in range(h.constants, len(z)):
         columns.append(_effect_column(h, z, j, seen, start))
     return np.array(columns).T.reshape(len(start), len(z))
-
-
-def slopes_of(start: Sequence[Feature], moved: Sequence[Feature], step: float) -> FloatArray:
-    """Of the residuals; none where a mode appears or vanishes on the way, which is a jump."""
-    return np.array(
-        [
-            0.0 if a.lost or b.lost else (b.residual - a.residual) / step
-            for a, b in zip(start, moved, strict=True)
-        ]
-    )
 
 
 def _constant_column(
@@ -89,12 +89,12 @@ def _moved(
         new: dict[str, Mapping[ModeKey, PredictedMode]] = {}
         for test, modes in tests.items():
             new[test] = modes
-            if not any(_concerns(h.study, stage, one) for one in changed):
+            if not any(concerns(h.study, stage, one) for one in changed):
                 continue
             parts = [acted_materials(h.study, stage, v, actions, test) for v in (before, after)]
             regions = tuple(parts[0])
             change = material_vector(parts[1], regions) - material_vector(parts[0], regions)
-            slopes = stage.slopes(parts[0], modes)
+            slopes = slopes_by_materials(stage, parts[0], modes)
             mesh = after[f"{stage.name}:mesh"] - before[f"{stage.name}:mesh"]
             new[test] = dict(modes) | {
                 key: replace(modes[key], log_f=modes[key].log_f + slope @ change + mesh * modes[key].shared)
@@ -102,8 +102,3 @@ def _moved(
             }
         found[name] = (stage, new)
     return found
-
-
-def _concerns(study: StudyModel, stage: StageModel, constant: str) -> bool:
-    owners = study.constants.owners[stage.setup.index].values()
-    return constant in owners or constant.endswith("mass_kg") or constant == f"{stage.name}:mesh"

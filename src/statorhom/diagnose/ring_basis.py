@@ -4,22 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.linalg import eigh
 
-from statorhom.errors import SolverError
+from statorhom.diagnose.small_pairs import small_pairs
 from statorhom.model.affine import AffineModel, Materials, hooke_coefficients
 from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.eigen import modes_below
 from statorhom.model.harmonic import Harmonic, harmonic_spaces
-from statorhom.model.radial_profile import node_planes, radial_profile
+from statorhom.model.radial_profile import RadialProfile, node_planes, radial_profile
 from statorhom.model.stator_mode import StatorMode, name_modes
 
 DEPENDENT = 1e-6  # part of its mass by which a snapshot must differ from the others
 REACH = 1.15  # snapshots reach this much higher than the band
 MOST = 10  # modes of one problem per snapshot
+FIRST_GUESS = 4
+LOOSE = 1e-9  # relative error of a snapshot's eigenvalues: its modes only span
 
 Gradient = Mapping[str, tuple[np.ndarray, float]]
 
@@ -45,12 +47,26 @@ class RingProblem:
 
     def matrices(self, materials: Materials) -> tuple[np.ndarray, np.ndarray]:
         """K and M (k, k)."""
-        K = sum(
-            np.tensordot(hooke_coefficients(materials[r].hooke), part, axes=1)
-            for r, part in self.stiffness.items()
+        coefficients = np.concatenate([hooke_coefficients(materials[r].hooke) for r in self.stiffness])
+        density = np.array([materials[r].density for r in self.mass])
+        shape = (self.basis.shape[1],) * 2
+        stiffness, mass = self._flat
+        return (coefficients @ stiffness).reshape(shape), (density @ mass).reshape(shape)
+
+    @cached_property
+    def _flat(self) -> tuple[np.ndarray, np.ndarray]:
+        """Parts of K and M as rows."""
+        stiffness = [part.reshape(9, -1) for part in self.stiffness.values()]
+        return np.concatenate(stiffness), np.stack([part.ravel() for part in self.mass.values()])
+
+    def slope(self, q: np.ndarray, value: float, materials: Materials) -> np.ndarray:
+        """What a vector (k,) of a mode of λ = `value` gives to d ln f by Hooke entries and density of all regions."""
+        return np.concatenate(
+            [
+                np.r_[0.5 / value * (self.stiffness[r] @ q @ q), -0.5 * float(q @ self.mass[r] @ q)]
+                for r in materials
+            ]
         )
-        M = sum(materials[r].density * part for r, part in self.mass.items())
-        return np.asarray(K), np.asarray(M)
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,13 +76,20 @@ class RingModes:
     Parameters
     ----------
     modes : sorted by frequency, rigid bodies left out.
+    values : per problem (j,) λ (rad²/s²).
     vectors : per problem (k, j).
     problems : of the basis.
     """
 
     modes: tuple[StatorMode, ...]
+    values: tuple[np.ndarray, ...]
     vectors: tuple[np.ndarray, ...]
     problems: tuple[RingProblem, ...]
+
+    def slope(self, mode: StatorMode, materials: Materials) -> np.ndarray:
+        """d ln f by the Hooke entries and the density of all regions, one after the other."""
+        q = self.vectors[mode.problem][:, mode.column]
+        return self.problems[mode.problem].slope(q, (2 * np.pi * mode.frequency_hz) ** 2, materials)
 
     def log_frequency_gradient(self, mode: StatorMode) -> Gradient:
         """Region → derivative of ln f with respect to its nine Hooke entries and its density."""
@@ -87,7 +110,6 @@ class RingBasis:
     model : on the mesh.
     problems : of the harmonics that matter.
     highest_hz : upper end of the band.
-    contact : stiffness of the half pitch beside the materials' (N/m).
     """
 
     model: AffineModel
@@ -102,49 +124,68 @@ class RingBasis:
         SolverError
             If a mass or stiffness is not definite.
         """
-        mass = sum(materials[r].density * v for r, v in self.model.volumes.items())
-        top = (2 * np.pi * self.highest_hz) ** 2
-        found: list[StatorMode] = []
-        vectors = []
-        with one_blas_thread():
-            for number, problem in enumerate(self.problems):
-                try:
-                    values, x = eigh(*problem.matrices(materials))
-                except np.linalg.LinAlgError:
-                    raise SolverError("the mass of a region must be positive") from None
-                vectors.append(x)
-                count = int(np.count_nonzero(values <= top))
-                found += _named(problem, number, values[:count], x[:, :count], mass)
-        found.sort(key=lambda mode: mode.frequency_hz)
-        return RingModes(tuple(found), tuple(vectors), self.problems)
+        return self.solve_matrices([p.matrices(materials) for p in self.problems], materials)
 
-    def extended(self, snapshots: Sequence[Materials]) -> RingBasis:
-        """With the modes at further materials."""
+    def solve_matrices(
+        self, matrices: Sequence[tuple[np.ndarray, np.ndarray]], materials: Materials
+    ) -> RingModes:
+        """The same of given K and M (k, k) per problem.
+
+        Raises
+        ------
+        SolverError
+            If a mass or stiffness is not definite.
+        """
+        mass = sum(materials[r].density * v for r, v in self.model.volumes.items())
+        with one_blas_thread():
+            solved = [small_pairs(K, M) for K, M in matrices]
+        values_of, vectors = zip(*solved, strict=True) if solved else ((), ())
+        return RingModes(self._named(values_of, vectors, mass), values_of, vectors, self.problems)
+
+    def _named(
+        self, values: Sequence[np.ndarray], vectors: Sequence[np.ndarray], mass: float
+    ) -> tuple[StatorMode, ...]:
+        """Modes of the band by frequency."""
+        top = (2 * np.pi * self.highest_hz) ** 2
+        counts = [int(np.count_nonzero(v <= top)) for v in values]
+        numbers = [i for i, count in enumerate(counts) for _ in range(count)]
+        if not numbers:
+            return ()
+        used = list(zip(self.problems, values, vectors, counts, strict=True))
+        amplitudes = np.hstack([p.profile @ x[:, :count] for p, _, x, count in used if count])
+        spaces = [self.problems[i].space for i in numbers]
+        found = name_modes(
+            np.concatenate([v[:count] for _, v, _, count in used]),
+            amplitudes,
+            node_planes(amplitudes),
+            order=[space.order for space in spaces],
+            multiplicity=[space.multiplicity for space in spaces],
+            mass=mass,
+            problem=numbers,
+            column=[column for count in counts for column in range(count)],
+        )
+        return tuple(sorted(found, key=lambda mode: mode.frequency_hz))
+
+    def extended(self, snapshots: Sequence[Materials], joints: Sequence[sp.csr_array] = ()) -> RingBasis:
+        """With the modes at further materials, each with every one of some joints of the half pitch (N/m)."""
         profile = radial_profile(self.model.mesh)
-        matrices = [(self.model.stiffness_matrix(m), self.model.mass_matrix(m)) for m in snapshots]
+        bonded = [(self.model.stiffness_matrix(m), self.model.mass_matrix(m)) for m in snapshots]
+        matrices = [(sp.csr_array(K + joint), M) for K, M in bonded for joint in joints] or bonded
+        terms = affine_terms(self.model)
         problems = []
         with one_blas_thread():
             for problem in self.problems:
-                space = problem.space
-                added = [
-                    modes_below(
-                        sp.csr_array(space.project(K)),
-                        sp.csr_array(space.project(M)),
-                        REACH * self.highest_hz,
-                        most=MOST,
-                    )[1]
-                    for K, M in matrices
-                ]
-                unit = sp.csr_array(space.project(matrices[0][1]))
-                basis = _joined(problem.basis, np.hstack(added), unit)
-                problems.append(
-                    _projected(self.model, space, basis, profile.orders(space, space.expand(basis)))
-                )
+                solved, unit = _solved(problem.space, matrices, REACH * self.highest_hz)
+                problems.append(grown(problem, independent(problem.basis, solved, unit), terms, profile))
         return replace(self, problems=tuple(problems))
 
 
 def ring_basis(
-    model: AffineModel, snapshots: Sequence[Materials], highest_hz: float, orders: Sequence[int]
+    model: AffineModel,
+    snapshots: Sequence[Materials],
+    highest_hz: float,
+    orders: Sequence[int],
+    joints: Sequence[sp.csr_array] = (),
 ) -> RingBasis:
     """Bases of the problems with radial motion of some orders.
 
@@ -154,48 +195,100 @@ def ring_basis(
     snapshots : materials whose modes span the bases.
     highest_hz : upper end of the band.
     orders : harmonics.
+    joints : stiffness of the half pitch beside the materials' (N/m), with each of which the snapshots are solved.
     """
     spaces = [s for order in orders for s in harmonic_spaces(model.mesh, order) if s.parity != "odd"]
     empty = tuple(RingProblem(s, np.zeros((s.size, 0)), {}, {}, np.zeros((0, 0))) for s in spaces)
-    return RingBasis(model, empty, highest_hz).extended(snapshots)
+    return RingBasis(model, empty, highest_hz).extended(snapshots, joints)
 
 
-def _joined(basis: np.ndarray, added: np.ndarray, M: sp.csr_array) -> np.ndarray:
-    """M-orthonormal basis of both."""
+def _solved(
+    space: Harmonic, matrices: Sequence[tuple[sp.csr_array, sp.csr_array]], highest_hz: float
+) -> tuple[np.ndarray, sp.csr_array]:
+    """Modes (m, j) of all snapshots, and the first one's mass."""
+    found: list[np.ndarray] = []
+    masses: list[tuple[np.ndarray, sp.csr_array]] = []
+    expected = FIRST_GUESS
+    for K, M in matrices:
+        # snapshots mostly have the weights in common
+        mass = next((own for data, own in masses if np.array_equal(data, M.data)), None)
+        if mass is None:
+            mass = sp.csr_array(space.project(M))
+            masses.append((M.data, mass))
+        _, vectors = modes_below(
+            sp.csr_array(space.project(K)), mass, highest_hz, expected, most=MOST, tolerance=LOOSE
+        )
+        found.append(vectors)
+        expected = min(max(FIRST_GUESS, vectors.shape[1] + 1), MOST)
+    return np.hstack(found), masses[0][1]
+
+
+def independent(basis: np.ndarray, added: np.ndarray, M: sp.csr_array) -> np.ndarray:
+    """M-orthonormal directions (m, k) of `added` that the basis lacks."""
+    if added.shape[1] == 0:
+        return added
     added = added / np.sqrt(np.sum(added * (M @ added), axis=0))
-    if basis.shape[1]:
-        basis = basis / np.sqrt(np.sum(basis * (M @ basis), axis=0))
-    joined = np.hstack([basis, added])
-    values, rotation = np.linalg.eigh(joined.T @ (M @ joined))
+    for _ in range(2 if basis.shape[1] else 0):  # the second time for rounding
+        heavy = M @ basis
+        added = added - basis @ np.linalg.solve(basis.T @ heavy, heavy.T @ added)
+    values, rotation = np.linalg.eigh(added.T @ (M @ added))
     keep = values > DEPENDENT
-    return np.asarray(joined @ (rotation[:, keep] / np.sqrt(values[keep])))
+    return np.asarray(added @ (rotation[:, keep] / np.sqrt(values[keep])))
 
 
-def _projected(model: AffineModel, space: Harmonic, basis: np.ndarray, profile: np.ndarray) -> RingProblem:
-    real, imaginary = space.real @ basis, space.imaginary @ basis
+@dataclass(frozen=True)
+class AffineTerms:
+    """K per unit Hooke entry and M per unit density of every region of the half pitch."""
 
-    def onto(matrix: sp.csr_array) -> np.ndarray:
-        return np.asarray(space.copies * (real.T @ (matrix @ real) + imaginary.T @ (matrix @ imaginary)))
+    stiffness: Mapping[str, tuple[sp.csr_array, ...]]
+    mass: Mapping[str, sp.csr_array]
+
+
+@lru_cache(maxsize=8)
+def affine_terms(model: AffineModel) -> AffineTerms:
+    """The matrices behind a model's affine form."""
+
+    def compact(matrix: sp.csr_array) -> sp.csr_array:
+        # the pattern is that of all regions
+        matrix.eliminate_zeros()
+        return matrix
+
+    return AffineTerms(
+        {r: tuple(compact(model.stiffness_term(r, q)) for q in range(9)) for r in model.stiffness},
+        {r: compact(model.mass_term(r)) for r in model.mass},
+    )
+
+
+def grown(problem: RingProblem, added: np.ndarray, terms: AffineTerms, profile: RadialProfile) -> RingProblem:
+    """The problem with further vectors in its basis; only their products are new."""
+    space, old, count = problem.space, problem.basis, added.shape[1]
+    if count == 0 and problem.stiffness:
+        return problem
+    shapes = np.hstack([space.real @ added, space.imaginary @ added])
+    before = np.hstack([space.real @ old, space.imaginary @ old])
+    size = old.shape[1]
+
+    def products(left: np.ndarray, right: np.ndarray) -> np.ndarray:
+        k = left.shape[1] // 2
+        return np.asarray(left[:, :k].T @ right[:, :count] + left[:, k:].T @ right[:, count:])
+
+    def larger(known: np.ndarray | None, term: sp.csr_array) -> np.ndarray:
+        image = space.copies * (term @ shapes)
+        mixed, own = products(before, image), products(shapes, image)
+        inner = np.zeros((size, size)) if known is None else known
+        return np.block([[inner, mixed], [mixed.T, own]])
 
     stiffness = {
-        region: np.stack([onto(model.stiffness_term(region, entry)) for entry in range(9)])
-        for region in model.stiffness
+        r: np.stack(
+            [
+                larger(known[q] if (known := problem.stiffness.get(r)) is not None else None, t)
+                for q, t in enumerate(parts)
+            ]
+        )
+        for r, parts in terms.stiffness.items()
     }
-    return RingProblem(space, basis, stiffness, {r: onto(model.mass_term(r)) for r in model.mass}, profile)
-
-
-def _named(
-    problem: RingProblem, number: int, values: np.ndarray, vectors: np.ndarray, mass: float
-) -> list[StatorMode]:
-    amplitudes = problem.profile @ vectors
-    count = len(values)
-    return name_modes(
-        values,
-        amplitudes,
-        node_planes(amplitudes) if count else np.empty(0, int),
-        order=[problem.space.order] * count,
-        multiplicity=[problem.space.multiplicity] * count,
-        mass=mass,
-        problem=[number] * count,
-        column=range(count),
-    )
+    mass = {r: larger(problem.mass.get(r), t) for r, t in terms.mass.items()}
+    amplitudes = profile.orders(space, space.expand(added))
+    if problem.stiffness:
+        amplitudes = np.hstack([problem.profile, amplitudes])
+    return RingProblem(space, np.hstack([old, added]), stiffness, mass, amplitudes)

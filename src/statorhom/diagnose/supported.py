@@ -14,7 +14,7 @@ from scipy.optimize import linear_sum_assignment
 
 from statorhom.diagnose.features import LOST, Feature, measured_sd
 from statorhom.diagnose.measured import MeasuredTest
-from statorhom.diagnose.prediction import PredictedMode
+from statorhom.diagnose.prediction import KEPT, PredictedMode
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Materials
@@ -22,7 +22,7 @@ from statorhom.model.broken.attachments import springs
 from statorhom.model.broken.change import Attachment, Change
 from statorhom.model.broken.solve import BrokenModes, solve_broken
 from statorhom.model.convergence import ModeKey
-from statorhom.model.supports import support_on
+from statorhom.model.supports import HeldPoints, support_on
 from statorhom.model.surface import surface_points
 from statorhom.modes.supported_names import name_supported
 from statorhom.physics.action import Action
@@ -46,14 +46,21 @@ class SupportedReference:
     ----------
     log_f : (modes,) ln of the frequencies (Hz).
     shares : named free mode → (modes,) share of its strain energy.
-    radial : (modes, planes, angles) at the test's points, None where no shapes were measured.
-    names : (r, n) of every mode, empty where shapes were measured.
+    held : (modes,) share of the springs to the ground.
+    radial : (modes, planes, angles) at the test's points, None where no shapes were measured or asked for.
+    names : (r, n) of every mode, None where shapes were measured or names not asked for.
     """
 
     log_f: np.ndarray
     shares: Mapping[ModeKey, np.ndarray]
-    radial: np.ndarray | None
-    names: tuple[tuple[int | None, int | None], ...]
+    held: np.ndarray
+    radial: np.ndarray | None = None
+    names: tuple[tuple[int | None, int | None], ...] | None = None
+
+    @property
+    def paired(self) -> bool:
+        """Whether it can be paired with what was measured."""
+        return self.radial is not None or self.names is not None
 
 
 def elastic_keys(keys: SupportKeys) -> SupportKeys:
@@ -72,22 +79,39 @@ def supported_test(
     test: MeasuredTest,
     actions: Sequence[Action],
     mark: tuple[Hashable, ...],
+    shapes: bool = False,
 ) -> SupportedReference | None:
-    """Modes of a supported test under actions; `mark` has one entry per action that tells it from others."""
+    """Modes of a supported test under actions; `mark` has one entry per action that tells it from others.
+
+    Shapes and names cost more than all the rest; only a pairing needs them.
+    """
     declared = files.study.support(test.support)
     held = [a.supports[test.support] for a in actions if test.support in a.supports]
     keys = held[-1] if held else declared
     assert keys is not None
     here = [(a, m) for a, m in zip(actions, mark, strict=True) if a.touches(stage.name, test.name)]
-    parts = [(attached(stage, a), m, test.support in a.supports) for a, m in here]
+    parts = [(attached(stage, a, m), m, test.support in a.supports) for a, m in here]
     seen = tuple(m for part, m, held_otherwise in parts if part or held_otherwise)
-    return supported_reference(stage, test, keys, [c for part, _, _ in parts for c in part], seen)
+    more = [c for part, _, _ in parts for c in part]
+    return supported_reference(stage, test, keys, more, seen, shapes)
 
 
-def attached(stage: StageModel, action: Action) -> list[Change]:
-    """What an action attaches to the surface."""
-    changes = action.changes(stage.model.mesh, stage.reference) if action.changes else ()
-    return [c for c in changes if isinstance(c, Attachment)]
+def attached(stage: StageModel, action: Action, mark: Hashable) -> tuple[Attachment, ...]:
+    """What an action attaches to the surface; kept under its mark."""
+    if action.changes is None:
+        return ()
+    place = ("attached", mark)
+    if place not in stage.kept_responses:
+        changes = action.changes(stage.model.mesh, stage.reference)
+        _keep(stage, place, tuple(c for c in changes if isinstance(c, Attachment)))
+    known: tuple[Attachment, ...] = stage.kept_responses[place]
+    return known
+
+
+def _keep(stage: StageModel, place: Hashable, found: object) -> None:
+    while len(stage.kept_responses) >= KEPT:
+        stage.kept_responses.pop(next(iter(stage.kept_responses)))
+    stage.kept_responses[place] = found
 
 
 def without_attachments(action: Action) -> Action:
@@ -103,36 +127,53 @@ def without_attachments(action: Action) -> Action:
 
 
 def supported_reference(
-    stage: StageModel, test: MeasuredTest, keys: SupportKeys, more: Sequence[Change], mark: Hashable
+    stage: StageModel,
+    test: MeasuredTest,
+    keys: SupportKeys,
+    more: Sequence[Change],
+    mark: Hashable,
+    shapes: bool = False,
 ) -> SupportedReference | None:
     """Modes of a supported test with what else is attached; None for supports that hold end faces."""
     place = ("supported", test.name, mark)
-    if mark is None or place not in stage.kept_responses:
-        found = _solved(stage, test, keys, more)
-        while len(stage.kept_responses) >= 32:
-            stage.kept_responses.pop(next(iter(stage.kept_responses)))
-        stage.kept_responses[place] = found
-    known: SupportedReference | None = stage.kept_responses[place]
+    known: SupportedReference | None = stage.kept_responses.get(place)
+    if place not in stage.kept_responses or (shapes and known is not None and not known.paired):
+        known = _solved(stage, test, keys, more, shapes)
+        stage.kept_responses.pop(place, None)
+        _keep(stage, place, known)
     return known
 
 
 def _solved(
-    stage: StageModel, test: MeasuredTest, keys: SupportKeys, more: Sequence[Change]
+    stage: StageModel, test: MeasuredTest, keys: SupportKeys, more: Sequence[Change], shapes: bool
 ) -> SupportedReference | None:
     mesh = stage.model.mesh
     support = support_on(mesh, elastic_keys(keys))
     if support.ends is not None or support.points.stiffness is None:
         return None
-    modes = solve_broken(stage.broken, [springs(mesh, support.points), *more], tolerance=None)
+    modes = solve_broken(stage.broken, [_springs(stage, support.points), *more], tolerance=None)
     log_f = np.log(modes.frequencies_hz)
     shares = {key: _share(modes, stage, key) for key in stage.columns}
+    held = _held_share(modes)
+    if not shapes:
+        return SupportedReference(log_f, shares, held)
     if test.shapes is None:
-        named = name_supported(modes.shapes, stage.model, stage.reference)
-        return SupportedReference(log_f, shares, None, tuple((m.order, m.axial) for m in named))
+        named = name_supported(modes, stage.model, stage.reference)
+        return SupportedReference(log_f, shares, held, None, tuple((m.order, m.axial) for m in named))
     z, angles = (a.ravel() for a in np.meshgrid(test.shapes.z_m, test.shapes.angles_rad, indexing="ij"))
-    motion = modes.shapes.motion(surface_points(mesh, angles, z))[:, 0]
+    motion = modes.motion(surface_points(mesh, angles, z))[:, 0]
     shape = (len(test.shapes.z_m), len(test.shapes.angles_rad), len(modes))
-    return SupportedReference(log_f, shares, np.moveaxis(motion.reshape(shape), -1, 0), ())
+    return SupportedReference(log_f, shares, held, np.moveaxis(motion.reshape(shape), -1, 0))
+
+
+def _springs(stage: StageModel, held: HeldPoints) -> Attachment:
+    """Springs of a support; those of other stiffness share their points, whose loads are known then."""
+    place = ("springs", held.angles.tobytes(), held.z.tobytes())
+    found = springs(stage.model.mesh, held)
+    if place not in stage.kept_responses:
+        _keep(stage, place, found)
+    known: Attachment = stage.kept_responses[place]
+    return replace(known, stiffness=found.stiffness)
 
 
 def _share(modes: BrokenModes, stage: StageModel, key: ModeKey) -> np.ndarray:
@@ -140,6 +181,14 @@ def _share(modes: BrokenModes, stage: StageModel, key: ModeKey) -> np.ndarray:
     used = [place.cosine] if place.sine is None else [place.cosine, place.sine]
     energy = np.sum(modes.coordinates[used] ** 2, axis=0) * place.eigenvalue
     return np.asarray(np.minimum(energy / modes.eigenvalues, 1.0))
+
+
+def _held_share(modes: BrokenModes) -> np.ndarray:
+    """Share of the springs to the ground in the potential energy of every mode."""
+    own = modes.coupled.statics
+    motion = np.hstack([own.rows, own.flexibility]) @ modes.coordinates
+    energy = np.sum(motion * (own.stiffness @ motion), axis=0)
+    return np.asarray(np.clip(energy / modes.eigenvalues, 0.0, 1.0))
 
 
 def predicted_logs(
@@ -166,6 +215,7 @@ def partners(
     if reference.radial is not None and test.shapes is not None:
         cost = cost + ((1 - _mac(test, reference.radial)) / MAC_SPREAD) ** 2
     else:
+        assert reference.names is not None, "solved without names"
         for i, mode in enumerate(test.modes):
             for j, (order, axial) in enumerate(reference.names):
                 other = (mode.order is not None and mode.order != order) or (

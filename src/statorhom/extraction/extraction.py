@@ -71,11 +71,6 @@ class ExtractedMode:
         return 0.5 * self.loss_factor
 
     @property
-    def damping_ratio_sd(self) -> float:
-        """Standard deviation of ζ."""
-        return 0.5 * self.loss_factor_sd
-
-    @property
     def bandwidth_hz(self) -> float:
         """Half-power bandwidth η f_r as it shows in the data."""
         return self.frequency_hz * self.observed.imag / self.observed.real

@@ -100,8 +100,8 @@ class MeasuredModes:
         """Frequencies of the modes, without the sensor's mass where it is known."""
         frequencies = [one.mode.frequency_hz for one in self.modes]
         if self.sensor is not None:
-            for number, frequency in zip(self.sensor.modes, self.sensor.bare_hz, strict=True):
-                frequencies[number] = float(frequency)
+            for number, (frequency, _) in self.sensor.bare.items():
+                frequencies[number] = frequency
         return tuple(frequencies)
 
 

@@ -2,10 +2,13 @@
 
 To first order δf/f = −mφ²/2 with the mass-normalised amplitude φ at the sensor, which follows from the residues
 φ_k φ_h: the wave that the shape forms around the circumference, evaluated at the hammer's place, is φ_h².
+The mass moves axially as well, which a radial accelerometer does not see: that motion follows from the slope of
+the shape along the axis. Tangentially it moves only the other half of a doublet that it turns.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -14,6 +17,7 @@ import numpy.typing as npt
 
 from statorhom.errors import IdentificationError
 from statorhom.extraction.extraction import ExtractedMode
+from statorhom.modes.axial_motion import AxialLever, axial_lever, sheets_slide
 from statorhom.modes.pole_shift import PoleShiftTrend, pole_shift_trend
 from statorhom.recordings.dof import Dof
 
@@ -38,10 +42,10 @@ class SensorTrend:
     relative_sd : array, shape (points, modes)
         Standard deviation of the relative shifts.
     amplitude_squared : array, shape (points, modes)
-        Squared mass-normalised amplitude (1/kg).
+        Squared mass-normalised amplitude with which the sensor moves (1/kg).
     bare_hz, bare_sd_hz : arrays, shape (modes,)
-        Frequencies extrapolated to a sensor without mass. Motion that was not measured (tangential, axial)
-        carries the mass as well and is missing in them.
+        Frequencies extrapolated to a sensor without mass; the deviation holds that of the mass, of the axial
+        motion that was not measured, and of the loaded frequency. Infinite: not determined.
     """
 
     modes: tuple[int, ...]
@@ -57,17 +61,22 @@ class SensorTrend:
         return self.shifts.joint.p_mass < SURE and self.shifts.joint.ci90_kg[0] > 0
 
     @property
+    def bare(self) -> dict[int, tuple[float, float]]:
+        """Number of a mode → its frequency without the sensor and the standard deviation (Hz), where determined."""
+        rows = zip(self.modes, self.bare_hz.tolist(), self.bare_sd_hz.tolist(), strict=True)
+        return {number: (frequency, sd) for number, frequency, sd in rows if math.isfinite(sd)}
+
+    @property
     def statement(self) -> str:
         """The trend in one line."""
         joint = self.shifts.joint
         low, high = (1000 * one for one in joint.ci90_kg)
         modes = ", ".join(
-            f"{1 + number}: {frequency:.2f} Hz"
-            for number, frequency in zip(self.modes, self.bare_hz, strict=True)
+            f"{1 + number}: {frequency:.2f} ± {sd:.2g} Hz" for number, (frequency, sd) in self.bare.items()
         )
         return (
             f"the poles move from point to point as a sensor of {1000 * joint.mass_kg:.3g} g "
-            f"({low:.3g} … {high:.3g} g) moves them; without its radial inertia modes lie at {modes}"
+            f"({low:.3g} … {high:.3g} g) moves them; without it modes lie at {modes}"
         )
 
 
@@ -88,21 +97,25 @@ def sensor_trend(
         for m, mode in enumerate(modes)
         if mode.shift is not None and len(mode.shift) == len(points) and names.get(m, (0, 0))[0] > 0
     ]
-    waves = {m: _wave(modes[m], names[m], points, hammer) for m in chosen}
-    chosen = [m for m in chosen if waves[m] is not None]
-    if not chosen:
+    slides = sheets_slide({name: modes[m].frequency_hz for m, name in names.items()})
+    found = {m: _wave(modes[m], names[m], points, hammer, slides) for m in chosen}
+    waves = {m: wave for m, wave in found.items() if wave is not None}
+    if not waves:
         return None
-    frequency = np.stack([_frequencies(modes[m])[0] for m in chosen], axis=1)
-    sd = np.stack([_frequencies(modes[m])[1] for m in chosen], axis=1)
-    amplitude = np.stack([wave for m in chosen if (wave := waves[m]) is not None], axis=1)
+    poles = [_frequencies(modes[m]) for m in waves]
+    frequency, sd = (np.stack(column, axis=1) for column in zip(*poles, strict=True))
+    amplitude = np.stack([wave.amplitude for wave in waves.values()], axis=1)
     try:
         shifts = pole_shift_trend(frequency, sd, amplitude)
     except IdentificationError:
         return None
     square = np.sum(amplitude**2, axis=2)
     low, high = shifts.joint.ci90_kg
-    bare_sd = shifts.bare_hz * square.mean(axis=0) * (high - low) / _CI90 / 2
-    return SensorTrend(tuple(chosen), shifts, sd / frequency, square, shifts.bare_hz, bare_sd)
+    of_mass = square.mean(axis=0) * (high - low) / _CI90 / 2
+    of_axial = shifts.joint.mass_kg * np.array([wave.square_sd for wave in waves.values()]) / 2
+    of_pole = np.array([modes[m].frequency_sd_hz / modes[m].frequency_hz for m in waves])
+    bare_sd = shifts.bare_hz * np.sqrt(of_mass**2 + of_axial**2 + of_pole**2)
+    return SensorTrend(tuple(waves), shifts, sd / frequency, square, shifts.bare_hz, bare_sd)
 
 
 def _frequencies(mode: ExtractedMode) -> tuple[FloatArray, FloatArray]:
@@ -116,10 +129,25 @@ def _frequencies(mode: ExtractedMode) -> tuple[FloatArray, FloatArray]:
     return frequency, sd
 
 
+@dataclass(frozen=True)
+class _Wave:
+    """Mass-normalised motion of the sensor (1/√kg), shape (points, 4): radial and axial, each as cos rθ and sin rθ.
+
+    `square_sd` is the standard deviation of its mean square, from the axial part.
+    """
+
+    amplitude: FloatArray
+    square_sd: float
+
+
 def _wave(
-    mode: ExtractedMode, name: tuple[int, int], points: Sequence[Dof], hammer: Dof
-) -> FloatArray | None:
-    """Mass-normalised radial amplitudes cos rθ, sin rθ at every point (1/√kg), shape (points, 2).
+    mode: ExtractedMode,
+    name: tuple[int, int],
+    points: Sequence[Dof],
+    hammer: Dof,
+    slides: bool | None,
+) -> _Wave | None:
+    """Motion of the sensor at every point; None where the points do not tell it.
 
     A sensor turns a doublet until its antinode lies at the sensor, so the motions of both shapes count.
     """
@@ -127,8 +155,8 @@ def _wave(
     places = [point.position for point in points]
     if hammer.position is None or hammer.angle is None or None in places or len(points) < _FEWEST_POINTS:
         return None
-    theta = np.array([point.angle for point in points], dtype=float)
-    z = np.array([place[2] for place in places if place is not None])
+    x, y, z = np.array([place for place in places if place is not None]).T
+    theta = np.arctan2(y, x)
     middle, span = float(z.mean()), max(float(np.ptp(z)), np.finfo(float).tiny)
     degree = min(axial + 2, len(np.unique(z.round(6))) - 1)
     along = np.vander((z - middle) / span, degree + 1)
@@ -141,5 +169,17 @@ def _wave(
     square = abs(float(at_hammer @ [np.cos(order * hammer.angle), np.sin(order * hammer.angle)]))
     if square <= 0.0:
         return None
-    height = np.linalg.norm(along @ solution.T, axis=1) / np.sqrt(square)
-    return np.stack([height * np.cos(order * theta), height * np.sin(order * theta)], axis=1)
+    slope = along[:, 1:] * np.arange(degree, 0, -1) / span
+    lever = axial_lever(order, axial, float(np.hypot(x, y).mean()), slides)
+    radial = np.linalg.norm(along @ solution.T, axis=1) / np.sqrt(square)
+    inclined = np.linalg.norm(slope @ solution[:, :-1].T, axis=1) / np.sqrt(square)
+    return _Wave(_turned(radial, inclined * lever.length_m, order * theta), _square_sd(inclined, lever))
+
+
+def _turned(radial: FloatArray, axial: FloatArray, phase: FloatArray) -> FloatArray:
+    columns = [part * turn for part in (radial, axial) for turn in (np.cos(phase), np.sin(phase))]
+    return np.stack(columns, axis=1)
+
+
+def _square_sd(inclined: FloatArray, lever: AxialLever) -> float:
+    return float(np.mean(inclined**2)) * 2 * lever.length_m * lever.sd_m

@@ -108,7 +108,7 @@ def _check_names(studies: Sequence[StudyFiles]) -> None:
 
 
 def _geometry(files: StudyFiles) -> object:
-    return files.geometry.model_dump(exclude={"name"})
+    return files.drawing.model_dump(exclude={"name"})
 
 
 def _steps(files: StudyFiles) -> object:

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from statorhom.mesh.hex_mesh import HalfPitchMesh, PartMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.free_modes import solve_free
+from statorhom.model.harmonic import problems_of
+from statorhom.model.problems import orders_of, spaces_of
+from statorhom.model.space import Space
 from statorhom.study.modal_table import MeasuredMode
 
 MARGIN = 1.6  # the softest and the stiffest materials of the prior move modes in and out of the band
@@ -21,12 +25,16 @@ def highest_hz(modes: Sequence[MeasuredMode]) -> float:
 
 
 def mode_names(
-    model: AffineModel, materials: Materials, modes: Sequence[MeasuredMode], margin: float = MARGIN
+    model: AffineModel[PartMesh],
+    materials: Materials,
+    modes: Sequence[MeasuredMode],
+    margin: float = MARGIN,
 ) -> Names:
     """Names (r, n) that the modes have or may have; n None where it is open.
 
     Labelled modes live in the harmonic of their label. One that has no label may be any visible mode of the band:
-    the orders whose lowest visible mode at typical materials lies in it.
+    the orders whose lowest visible mode at typical materials lies in it. A body with mirror planes has few problems,
+    and modes of any band live in all of them.
 
     Parameters
     ----------
@@ -34,6 +42,8 @@ def mode_names(
     modes : measured modes.
     margin : how far beyond the highest unlabelled mode, as a part of its frequency.
     """
+    if not isinstance(model.mesh, HalfPitchMesh):
+        return {(order, None) for order in orders_of(model.mesh)}
     names: Names = {(m.order, m.axial) for m in modes if m.order is not None}
     unlabelled = [m for m in modes if m.order is None]
     if unlabelled:
@@ -43,11 +53,18 @@ def mode_names(
     return names
 
 
-def _visible_orders(model: AffineModel, materials: Materials, top_hz: float) -> list[int]:
+def named_spaces(mesh: PartMesh, names: Names) -> Sequence[Space]:
+    """The problems that hold the modes of some names."""
+    if isinstance(mesh, HalfPitchMesh):
+        return problems_of(mesh, names)
+    return [space for order in sorted({r for r, _ in names}) for space in spaces_of(mesh, order)]
+
+
+def _visible_orders(model: AffineModel[PartMesh], materials: Materials, top_hz: float) -> list[int]:
     solution = solve_free(model, materials, top_hz, most=ENOUGH)
     visible = {solution.harmonics[m.problem].order for m in solution.modes if m.visibility > LEAST_VISIBLE}
     found = []
-    for order in range(model.mesh.slots // 2 + 1):
+    for order in orders_of(model.mesh):
         if order in visible:
             found.append(order)
         elif order > 2:

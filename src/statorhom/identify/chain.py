@@ -10,8 +10,10 @@ from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
-from statorhom.geometry.stator import StatorGeometry, stator_geometry
+from statorhom.geometry.tested_object import ObjectGeometry, object_geometry
 from statorhom.identify.announce import Announce, silent
+from statorhom.identify.described import described
+from statorhom.identify.effect_shifts import effect_shifts
 from statorhom.identify.measured_mac import with_mac
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.priors import Carried
@@ -57,7 +59,7 @@ class Chain:
     Parameters
     ----------
     files : the study.
-    geometry : of its machine.
+    geometry : of its machine or coupon.
     folder : where results go.
     settings : of the run.
     bases : folder of the reduced bases, which machines may share.
@@ -65,7 +67,7 @@ class Chain:
     """
 
     files: StudyFiles
-    geometry: StatorGeometry
+    geometry: ObjectGeometry
     folder: Path
     settings: Settings
     bases: Path
@@ -124,6 +126,7 @@ class Chain:
         setups = [stage_setup(self.files, self.geometry, i) for i in range(last + 1)]
         for setup in setups:
             check_fit(self.files, setup)
+            effect_shifts(self.files, setup)
         return setups
 
     def _step(
@@ -151,7 +154,8 @@ class Chain:
         analytic = analytic_values(
             self.files, setup, _earlier_densities(self.files, self.geometry, setup.index)
         )
-        run = run_stage(setup, carried, analytic, self.settings, workers, announce, BasisStore(self.bases))
+        store, effects = BasisStore(self.bases), effect_shifts(self.files, setup)
+        run = run_stage(setup, carried, analytic, self.settings, workers, announce, store, effects)
         shapes, rows = free_shapes(run)
         result = stage_result(run, state.mass_kg, state.regions, rows)
         progress = announce("supported tests", 1)
@@ -196,20 +200,12 @@ class Chain:
         return tuple(kept)
 
     def _results(self, stages: tuple[StageResult, ...]) -> Results:
-        d = self.geometry.dimensions
         return Results(
             schema=1,
             study=self.files.study.name,
             seed=self.settings.seed,
             program=program_version(),
-            geometry={
-                "name": self.files.geometry.name,
-                "slots": d.slots,
-                "shape": self.files.geometry.slots.shape,
-                "outer_diameter_mm": 2e3 * d.outer_radius,
-                "bore_diameter_mm": 2e3 * d.bore_radius,
-                "length_mm": 1e3 * d.length,
-            },
+            geometry=described(self.files.drawing, self.geometry),
             stages=stages,
         )
 
@@ -231,7 +227,7 @@ def chain(
     GeometryError
         If the machine is impossible.
     """
-    geometry = stator_geometry(files.geometry, files.geometry_path)
+    geometry = object_geometry(files.drawing, files.geometry_path)
     return Chain(files, geometry, folder, settings, bases or folder / "bases", measured or {})
 
 
@@ -243,7 +239,7 @@ def program_version() -> str:
         return "statorhom"
 
 
-def _earlier_densities(files: StudyFiles, geometry: StatorGeometry, index: int) -> dict[str, RegionDensity]:
+def _earlier_densities(files: StudyFiles, geometry: ObjectGeometry, index: int) -> dict[str, RegionDensity]:
     found: dict[str, RegionDensity] = {}
     for earlier in range(index):
         found |= stage_setup(files, geometry, earlier).densities

@@ -14,10 +14,11 @@ from statorhom.identify.stage_basis import LOCAL, SEARCH, SHARED, SHARED_STEP, S
 from statorhom.identify.stage_materials import StageMaterials
 from statorhom.identify.stage_problem import StageProblem
 from statorhom.identify.training import neighbouring_materials, training_materials
+from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.basis_store import BasisStore
-from statorhom.model.harmonic import Harmonic
 from statorhom.model.reduced_stator import ReducedStator
+from statorhom.model.space import Space
 
 
 @dataclass(frozen=True)
@@ -35,8 +36,8 @@ class FitBases:
     shared : whether they shall serve other machines too: exact over all of the prior.
     """
 
-    model: AffineModel
-    spaces: Sequence[Harmonic]
+    model: AffineModel[PartMesh]
+    spaces: Sequence[Space]
     highest_hz: float
     workers: Workers
     announce: Announce

@@ -14,7 +14,6 @@ from statorhom.identify.prior_block import PriorBlock
 from statorhom.identify.stage_materials import DENSITY, StageMaterials
 from statorhom.identify.stage_problem import MESH
 from statorhom.materials.density import RegionDensity
-from statorhom.materials.symmetry import constant_names
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.materials.typical import prior_range
 from statorhom.results.schema import CarriedParameter, CarriedState
@@ -101,7 +100,7 @@ def stage_space(
         if source not in new:
             continue
         parameters += [
-            _constant(stage, source, symmetry, c, analytic.get(source)) for c in constant_names(symmetry)
+            _constant(stage, source, symmetry, c, analytic.get(source)) for c in materials.constants[source]
         ]
         parameters.append(_density(source, densities[_weighed(source)]))
         ties += [_tie(source, group) for group in stage.identify.tied.get(source, ())]

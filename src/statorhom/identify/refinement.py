@@ -6,10 +6,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from statorhom.geometry.stator import StepGeometry
+from statorhom.geometry.block import BlockGeometry
+from statorhom.geometry.tested_object import ObjectStep
 from statorhom.identify.optimizers.workers import Tick, Workers
+from statorhom.mesh.block import block_mesh
 from statorhom.mesh.density import MeshDensity
 from statorhom.mesh.extrude import mesh_step
+from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials, assemble
 from statorhom.model.convergence import ModeConvergence, converge
 from statorhom.model.free_modes import FreeModes, FreeProblem, problem_at
@@ -40,21 +43,26 @@ class MeshSeries:
     Parameters
     ----------
     step : its geometry.
-    density : of the coarsest mesh.
+    density : of the coarsest mesh of a stator; blocks have their own.
     refinements : factors of the number of cells, ascending from 1.
     """
 
-    step: StepGeometry
+    step: ObjectStep
     density: MeshDensity
     refinements: tuple[float, ...] = (1.0, 1.5, 2.0)
 
     @cached_property
-    def models(self) -> tuple[AffineModel, ...]:
+    def models(self) -> tuple[AffineModel[PartMesh], ...]:
         """Assembled models of all meshes."""
-        return tuple(assemble(mesh_step(self.step, self.density.refined(f))) for f in self.refinements)
+        return tuple(assemble(self._mesh(factor)) for factor in self.refinements)
+
+    def _mesh(self, factor: float) -> PartMesh:
+        if isinstance(self.step, BlockGeometry):
+            return block_mesh(self.step, factor)
+        return mesh_step(self.step, self.density.refined(factor))
 
     @property
-    def coarsest(self) -> AffineModel:
+    def coarsest(self) -> AffineModel[PartMesh]:
         """The model to fit with."""
         return self.models[0]
 

@@ -15,11 +15,12 @@ import numpy as np
 
 from statorhom.identify.announce import Progress
 from statorhom.identify.optimizers.workers import Tick, Workers
+from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.basis_store import BasisStore, basis_key
-from statorhom.model.harmonic import Harmonic
 from statorhom.model.reduced import MaterialBox, ReducedHarmonic, material_box, reduce_harmonic
 from statorhom.model.reduced_stator import ReducedStator, reduced_stator
+from statorhom.model.space import Space
 
 BAND = 1.1  # the basis is exact up to here, as a part of the highest measured frequency
 STEP, SHARED_STEP = 1.05, 1.2  # bands are rounded up to powers of it, those of a fleet's machines more
@@ -48,14 +49,14 @@ SEARCH = BasisPlan(64, 4, 1e-2)
 LOCAL = BasisPlan(16, 4, TOLERANCE)
 SHARED = BasisPlan(512, 12, 3e-4)
 
-BasisTask = tuple[AffineModel, Harmonic, MaterialBox, float, float, BasisStore | None]
+BasisTask = tuple[AffineModel[PartMesh], Space, MaterialBox, float, float, BasisStore | None]
 
 
 def reduce_stage(
-    model: AffineModel,
+    model: AffineModel[PartMesh],
     training: Sequence[Materials],
     typical: Materials,
-    spaces: Sequence[Harmonic],
+    spaces: Sequence[Space],
     highest_hz: float,
     workers: Workers,
     plan: BasisPlan = SEARCH,

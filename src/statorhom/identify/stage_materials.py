@@ -16,16 +16,25 @@ STEP = 1e-6  # relative; Hooke entries are smooth functions of the constants
 
 @dataclass(frozen=True)
 class RegionModel:
-    """A region and the symmetry that the engineer believes it has; `source` lends its material where it has none."""
+    """A region and the symmetry that the engineer believes it has; `source` lends its material where it has none.
+
+    A coupon's axes are `numbered` 1, 2, 3.
+    """
 
     region: str
     symmetry: str
     source: str
+    numbered: bool = False
+
+    @property
+    def constants(self) -> tuple[str, ...]:
+        """Names of the region's engineering constants."""
+        return constant_names(self.symmetry, numbered=self.numbered)
 
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the region's constants in a fit."""
-        return tuple(f"{self.source}.{constant}" for constant in constant_names(self.symmetry))
+        return tuple(f"{self.source}.{constant}" for constant in self.constants)
 
     def material(self, values: Mapping[str, float]) -> Material:
         """Material of the region at the given constants.
@@ -88,6 +97,11 @@ class StageMaterials:
                 found[name] += float(hooke @ slope)
             found[f"{region.source}.{DENSITY}"] += density
         return found
+
+    @property
+    def constants(self) -> dict[str, tuple[str, ...]]:
+        """Region that owns constants → their names."""
+        return {r.source: r.constants for r in self.regions if r.source == r.region}
 
     @property
     def sources(self) -> dict[str, str]:

@@ -3,19 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from statorhom.errors import IdentificationError, MassError, MaterialError
-from statorhom.geometry.stator import StatorGeometry, StepGeometry
+from statorhom.geometry.block import BlockGeometry
+from statorhom.geometry.stator import StatorGeometry
+from statorhom.geometry.tested_object import ObjectGeometry, ObjectStep
 from statorhom.identify.optimizers.base import MIN_EVALUATIONS
 from statorhom.identify.stage_materials import RegionModel, StageMaterials
 from statorhom.materials.analytic import analytic_lamination, analytic_winding
-from statorhom.materials.density import REGION_OF_STEP, RegionDensity, Weighing, check_no_loss, densities
+from statorhom.materials.density import (
+    REGION_OF_STEP,
+    RegionDensity,
+    Weighing,
+    check_no_loss,
+    densities,
+    whole_density,
+)
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.study.inherited_identify import with_inherited_identify
 from statorhom.study.message import input_error, one_line
 from statorhom.study.modal_table import MeasuredMode
 from statorhom.study.modal_tests import ModalTestKeys
+from statorhom.study.regions import COUPON
 from statorhom.study.stages import StageKeys
 from statorhom.study.study import StudyFiles
 from statorhom.study.study_file import FREE
@@ -62,7 +72,7 @@ class StageSetup:
 
     index: int
     keys: StageKeys
-    step: StepGeometry | None
+    step: ObjectStep | None
     materials: StageMaterials
     new: frozenset[str]
     densities: Mapping[str, RegionDensity]
@@ -79,7 +89,7 @@ class StageSetup:
         return tuple(mode for test in self.tests if test.support == FREE for mode in test.modes)
 
 
-def stage_setup(files: StudyFiles, geometry: StatorGeometry, index: int) -> StageSetup:
+def stage_setup(files: StudyFiles, geometry: ObjectGeometry, index: int) -> StageSetup:
     """Collect what a stage needs.
 
     Raises
@@ -88,7 +98,7 @@ def stage_setup(files: StudyFiles, geometry: StatorGeometry, index: int) -> Stag
         If masses, geometry or tests of the stage contradict each other.
     """
     keys = with_inherited_identify(files.study, index)
-    tests = tuple(_test_modes(files, test) for test in keys.tests)
+    tests = tuple(_test_modes(files, test, geometry) for test in keys.tests)
     kinds = tuple(stage.kind for stage in files.study.stages[: index + 1])
     step = geometry.step(kinds) if tests or _described(geometry, kinds) else None
     found = _densities(files, index, step)
@@ -135,18 +145,23 @@ def _new_regions(files: StudyFiles, index: int) -> frozenset[str]:
     for stage in reversed(files.study.stages[: index + 1]):
         if new and stage.tests:
             break
-        new |= {REGION_OF_STEP[stage.kind], *stage.model.declared}
+        weighed = () if stage.kind == COUPON else (REGION_OF_STEP[stage.kind],)
+        new |= {*weighed, *stage.model.declared}
     return frozenset(new)
 
 
-def _described(geometry: StatorGeometry, kinds: tuple[str, ...]) -> bool:
+def _described(geometry: ObjectGeometry, kinds: tuple[str, ...]) -> bool:
+    if not isinstance(geometry, StatorGeometry):
+        return True
     d = geometry.dimensions
     tables = {"wound": d.overhang, "impregnated": d.overhang, "framed": d.frame, "machine": d.shields}
     return all(tables.get(kind, True) is not None for kind in kinds)
 
 
-def _densities(files: StudyFiles, index: int, step: StepGeometry | None) -> dict[str, RegionDensity]:
+def _densities(files: StudyFiles, index: int, step: ObjectStep | None) -> dict[str, RegionDensity]:
     weights = weighings(files, index)
+    if weights[0].kind == COUPON and step is not None:
+        return {region: whole_density(weights[0], region, v) for region, v in step.exact_volumes().items()}
     try:
         check_no_loss(weights)
         found = () if step is None else densities(weights, step.exact_volumes())
@@ -155,7 +170,7 @@ def _densities(files: StudyFiles, index: int, step: StepGeometry | None) -> dict
     return {density.region: density for density in found}
 
 
-def _regions(files: StudyFiles, index: int, step: StepGeometry) -> tuple[RegionModel, ...]:
+def _regions(files: StudyFiles, index: int, step: ObjectStep) -> tuple[RegionModel, ...]:
     regions = []
     for region in step.regions:
         source = region
@@ -167,15 +182,19 @@ def _regions(files: StudyFiles, index: int, step: StepGeometry) -> tuple[RegionM
             raise IdentificationError(
                 f"{files.path}: stage {stage!r}: stages.model.{region} is missing; declare the region's symmetry"
             )
-        regions.append(RegionModel(region, symmetry, source))
+        numbered = files.study.stages[index].kind == COUPON
+        regions.append(RegionModel(region, symmetry, source, numbered))
     return tuple(regions)
 
 
-def _test_modes(files: StudyFiles, test: ModalTestKeys) -> TestModes:
+def _test_modes(files: StudyFiles, test: ModalTestKeys, geometry: ObjectGeometry) -> TestModes:
     table = files.tables.get(test.name)
     modes = () if table is None else table.modes
     held = {str(number) for number in test.hold_out}
-    if test.modal_table is None:
+    if isinstance(geometry, BlockGeometry):
+        # only round objects have modes (r, n)
+        modes = tuple(replace(mode, order=None, axial=None) for mode in modes)
+    elif test.modal_table is None and isinstance(geometry, StatorGeometry):
         # the shape was seen and has no name: which simulated mode it is would be a guess
         held |= {mode.label for mode in modes if mode.order is None}
     predict = test.role == "predict" or (test.role is None and test.support != FREE)
@@ -199,6 +218,8 @@ def analytic_values(
     setup : the stage.
     earlier : densities of the regions before this step.
     """
+    if setup.keys.kind == COUPON:
+        return {}
     sheets, wires = files.geometry.lamination, files.geometry.winding
     found: dict[str, TransverselyIsotropic | None] = {}
     if "lamination" in setup.new and sheets is not None:

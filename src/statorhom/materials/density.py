@@ -125,6 +125,18 @@ def _density(weighings: Sequence[Weighing], volumes_m3: Mapping[str, float]) -> 
     )
 
 
+def whole_density(weighing: Weighing, region: str, volume_m3: float) -> RegionDensity:
+    """Density of an object that is one region."""
+    return RegionDensity(
+        stage=weighing.stage,
+        region=region,
+        mass_kg=weighing.mass_kg,
+        volume_m3=volume_m3,
+        density_kg_m3=weighing.mass_kg / volume_m3,
+        density_sd_kg_m3=weighing.mass_sd_kg / volume_m3,
+    )
+
+
 def _before(weighings: Sequence[Weighing]) -> tuple[float, float]:
     """Mass and standard deviation of what was there before the last step's region."""
     *earlier, last = weighings

@@ -11,6 +11,7 @@ from statorhom.errors import MaterialError
 from statorhom.materials.isotropic import Isotropic
 from statorhom.materials.orthotropic import Orthotropic
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
+from statorhom.study.regions import COUPON_CONSTANTS
 
 Material = Isotropic | TransverselyIsotropic | Orthotropic
 
@@ -21,8 +22,10 @@ SYMMETRIES: Mapping[str, type[Isotropic] | type[TransverselyIsotropic] | type[Or
 )
 
 
-def constant_names(symmetry: str) -> tuple[str, ...]:
+def constant_names(symmetry: str, *, numbered: bool = False) -> tuple[str, ...]:
     """Return the names of a symmetry's engineering constants, in the order of its constructor.
+
+    Where all three axes differ, a coupon's are `numbered` 1, 2, 3 instead of r, θ, z.
 
     Raises
     ------
@@ -33,4 +36,6 @@ def constant_names(symmetry: str) -> tuple[str, ...]:
         near = difflib.get_close_matches(symmetry, SYMMETRIES, n=1)
         hint = f"did you mean {near[0]!r}?" if near else f"use one of {', '.join(SYMMETRIES)}"
         raise MaterialError(f"unknown symmetry {symmetry!r}: {hint}")
+    if numbered:
+        return COUPON_CONSTANTS[symmetry]  # type: ignore[index]
     return tuple(field.name for field in fields(SYMMETRIES[symmetry]))

@@ -86,7 +86,9 @@ def prior_range(
 
 
 def _role(symmetry: str, constant: str) -> str:
-    names = constant_names(symmetry)
+    names, numbered = constant_names(symmetry), constant_names(symmetry, numbered=True)
+    if constant in numbered:
+        names = numbered
     if constant not in names:
         raise MaterialError(
             f"{symmetry} material has no constant {constant!r}: use one of {', '.join(names)}"

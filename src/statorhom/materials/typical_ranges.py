@@ -76,6 +76,21 @@ _LAMINATION = TypicalRegion(
     youngs_ceiling=240.0,
     shear_ceiling=95.0,
 )
+# from resin with chopped fibres to steel; carbon fibres lead stiffer, potted wires softer than what follows
+_COUPON = TypicalRegion(
+    {
+        "E": (2.0, 210.0),
+        "E_p": (2.0, 210.0),
+        "E_z": (1.0, 210.0),
+        "G_p": (0.5, 82.0),
+        "G_rz": (0.5, 82.0),
+        "nu": (0.15, 0.45),
+        "nu_p": (0.05, 0.45),
+        "nu_pz": (0.05, 0.45),
+    },
+    youngs_ceiling=500.0,
+    shear_ceiling=200.0,
+)
 # by region, and by (region, kind of stage) where a step makes a difference
 _REGIONS: Mapping[str | tuple[str, str], TypicalRegion] = {
     "lamination": _LAMINATION,
@@ -89,6 +104,9 @@ _REGIONS: Mapping[str | tuple[str, str], TypicalRegion] = {
     "frame": _solid(youngs=(65.0, 210.0), shear=(25.0, 82.0)),
     # end shields with ribs, openings and screwed joints
     "machine": _solid(youngs=(10.0, 210.0), shear=(4.0, 82.0)),
+    "plate": _COUPON,
+    "beam": _COUPON,
+    "tube": _COUPON,
 }
 
 

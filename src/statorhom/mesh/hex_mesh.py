@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from typing import Self
+from typing import ClassVar, Literal, Self
 
 import numpy as np
 
@@ -20,7 +20,7 @@ def _freeze(mesh: HexMesh) -> None:
             value.setflags(write=False)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HexMesh:
     """A mesh of 20-node hexahedra.
 
@@ -52,8 +52,25 @@ class HexMesh:
         return replace(self, region=region, regions=regions)
 
 
-@dataclass(frozen=True)
-class HalfPitchMesh(HexMesh):
+@dataclass(frozen=True, eq=False)
+class PartMesh(HexMesh):
+    """Mesh of the part that a symmetric body is copied from; `axes` are those of its materials."""
+
+    axes: ClassVar[Literal["cylindrical", "cartesian"]]
+
+    @property
+    def copies(self) -> int:
+        """How many copies make the body."""
+        raise NotImplementedError
+
+    @property
+    def full_dof(self) -> int:
+        """Degrees of freedom of the whole body's mesh."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, eq=False)
+class HalfPitchMesh(PartMesh):
     """Mesh of half a slot pitch, from the centre of a tooth to the centre of the next slot.
 
     Parameters
@@ -68,6 +85,13 @@ class HalfPitchMesh(HexMesh):
     outer_radius: float
     tooth_plane: np.ndarray
     slot_plane: np.ndarray
+
+    axes = "cylindrical"
+
+    @property
+    def copies(self) -> int:
+        """Half pitches of the stator."""
+        return 2 * self.slots
 
     @property
     def full_dof(self) -> int:

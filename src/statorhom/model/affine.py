@@ -1,4 +1,4 @@
-"""Stiffness and mass of half a slot pitch, affine in the Hooke entries and the densities.
+"""Stiffness and mass of half a slot pitch or of another symmetric part, affine in the Hooke entries and the densities.
 
 K = Σ over regions and entries of θ_q(C) K_q exactly, M = Σ ρ M_region; every K_q is assembled once per mesh.
 """
@@ -7,13 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
+from typing import Generic, cast
 
 import numpy as np
 import scipy.sparse as sp
+from typing_extensions import TypeVar
 
 from statorhom.errors import MaterialError
 from statorhom.materials.hooke import Hooke
-from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.mesh.hex_mesh import HalfPitchMesh, PartMesh
 from statorhom.model.assembly import (
     HOOKE_ENTRIES,
     BlockPattern,
@@ -24,6 +27,7 @@ from statorhom.model.assembly import (
     stiffness_blocks,
 )
 from statorhom.model.element import gauss_table
+from statorhom.model.frames import FRAMES
 
 
 @dataclass(frozen=True)
@@ -35,39 +39,47 @@ class Material:
 
 
 Materials = Mapping[str, Material]
+_ROWS, _COLUMNS = np.array(HOOKE_ENTRIES).T
 
 
+@lru_cache(maxsize=4096)
 def hooke_coefficients(hooke: Hooke) -> np.ndarray:
     """The nine entries C11, C22, C33, C12, C13, C23, C44, C55, C66 (Pa).
 
     Raises
     ------
     MaterialError
-        If the material is not orthotropic in the cylindrical axes: such a stator has no mirror symmetry.
+        If the material is not orthotropic in the axes of the part: such a body has no mirror symmetry.
     """
     matrix = hooke.matrix
     rest = matrix.copy()
-    for i, j in HOOKE_ENTRIES:
-        rest[i, j] = rest[j, i] = 0.0
+    rest[_ROWS, _COLUMNS] = rest[_COLUMNS, _ROWS] = 0.0
     if np.abs(rest).max() > 1e-9 * np.abs(matrix).max():
         raise MaterialError("a region's material must be orthotropic with its axes along r, θ and z")
-    return np.array([matrix[i, j] for i, j in HOOKE_ENTRIES])
+    found = matrix[_ROWS, _COLUMNS]
+    found.setflags(write=False)
+    return np.asarray(found)
 
 
-@dataclass(frozen=True)
-class AffineModel:
-    """Half a slot pitch before its materials are known.
+# unless said otherwise, a stator's
+Mesh = TypeVar("Mesh", bound=PartMesh, default=HalfPitchMesh, covariant=True)
+_Mesh = TypeVar("_Mesh", bound=PartMesh)
+
+
+@dataclass(frozen=True, eq=False)
+class AffineModel(Generic[Mesh]):
+    """A symmetric body's part before its materials are known.
 
     Parameters
     ----------
-    mesh : the mesh.
+    mesh : of the part.
     pattern : node couplings.
     stiffness : region → (9, places, 3, 3) block data per unit Hooke entry (m).
     mass : region → (places, 3, 3) block data per unit density (m³).
-    volumes : region → volume in the whole stator's mesh (m³).
+    volumes : region → volume in the whole body's mesh (m³).
     """
 
-    mesh: HalfPitchMesh
+    mesh: Mesh
     pattern: BlockPattern
     stiffness: Mapping[str, np.ndarray]
     mass: Mapping[str, np.ndarray]
@@ -75,11 +87,11 @@ class AffineModel:
 
     @property
     def size(self) -> int:
-        """Degrees of freedom of the half pitch."""
+        """Degrees of freedom of the part."""
         return 3 * len(self.mesh.nodes)
 
     def stiffness_matrix(self, materials: Materials) -> sp.csr_array:
-        """K of the half pitch (N/m)."""
+        """K of the part (N/m)."""
         data = sum(
             np.tensordot(hooke_coefficients(materials[region].hooke), blocks, axes=1)
             for region, blocks in self.stiffness.items()
@@ -93,7 +105,7 @@ class AffineModel:
         )
 
     def mass_matrix(self, materials: Materials) -> sp.csr_array:
-        """M of the half pitch (kg)."""
+        """M of the part (kg)."""
         data = sum(materials[region].density * blocks for region, blocks in self.mass.items())
         return self.pattern.matrix(np.asarray(data))
 
@@ -106,25 +118,36 @@ class AffineModel:
         return self.pattern.matrix(self.mass[region])
 
 
-def assemble(mesh: HalfPitchMesh) -> AffineModel:
+def stator_model(model: AffineModel[PartMesh]) -> AffineModel:
+    """The same model where it can only be a stator's or a tube's.
+
+    Raises
+    ------
+    TypeError
+        If it is of another body.
+    """
+    if not isinstance(model.mesh, HalfPitchMesh):
+        raise TypeError(type(model.mesh))
+    return cast(AffineModel, model)
+
+
+def assemble(mesh: _Mesh) -> AffineModel[_Mesh]:
     """Assemble all affine terms of a mesh."""
     pattern = block_pattern(mesh.elements, len(mesh.nodes))
     stiffness, mass, volumes = {}, {}, {}
     for i, name in enumerate(mesh.regions):
         stiffness[name], mass[name], half = _region_terms(mesh, pattern, i)
-        volumes[name] = 2 * mesh.slots * half
+        volumes[name] = mesh.copies * half
     return AffineModel(mesh, pattern, stiffness, mass, volumes)
 
 
-def _region_terms(
-    mesh: HalfPitchMesh, pattern: BlockPattern, region: int
-) -> tuple[np.ndarray, np.ndarray, float]:
+def _region_terms(mesh: PartMesh, pattern: BlockPattern, region: int) -> tuple[np.ndarray, np.ndarray, float]:
     """Stiffness terms, mass and volume of one region; only its own elements are summed."""
     gather = pattern.part(np.flatnonzero(mesh.region == region))
     stiffness: list[list[np.ndarray]] = [[] for _ in HOOKE_ENTRIES]
     mass = []
     volume = 0.0
-    for _, geometry in chunks(mesh, region):
+    for _, geometry in chunks(mesh, region, FRAMES[mesh.axes]):
         for term, matrices in zip(stiffness, stiffness_blocks(geometry), strict=True):
             term.append(node_blocks(matrices))
         mass.append(node_blocks(mass_blocks(geometry, gauss_table().values)))

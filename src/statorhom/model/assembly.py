@@ -202,12 +202,14 @@ def node_blocks(matrices: np.ndarray) -> np.ndarray:
     return matrices.reshape(e, 20, 3, 20, 3).transpose(0, 1, 3, 2, 4).reshape(-1, 3, 3)
 
 
-def chunks(mesh: HexMesh, region: int) -> Iterator[tuple[np.ndarray, ElementGeometry]]:
+def chunks(
+    mesh: HexMesh, region: int, frame: Frame = cylindrical
+) -> Iterator[tuple[np.ndarray, ElementGeometry]]:
     """Element numbers and geometry of a region, a chunk at a time."""
     numbers = np.flatnonzero(mesh.region == region)
     for first in range(0, len(numbers), CHUNK):
         part = numbers[first : first + CHUNK]
-        yield part, element_geometry(mesh.nodes[mesh.elements[part]], gauss_table())
+        yield part, element_geometry(mesh.nodes[mesh.elements[part]], gauss_table(), frame)
 
 
 def region_volumes(mesh: HexMesh) -> dict[str, float]:

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.linalg import eigh
 
+from statorhom.model.back_ends.choice import best_available
 from statorhom.model.basis_compression import compression
 from statorhom.model.eigen import factorize, modes_below
 from statorhom.model.harmonic_terms import HarmonicTerms
@@ -16,6 +17,7 @@ from statorhom.model.material_cells import stiffness_ratio
 from statorhom.model.material_span import MaterialPoint
 from statorhom.model.reduced_space import ReducedSpace, largest_deviation, symmetric
 from statorhom.model.residual_norm import residual_norm
+from statorhom.model.space import MIRROR
 
 BEYOND = 1  # modes above the band in every snapshot: the bounds need to know what comes next
 DROP = 0.2  # of the tolerance: the energy below which a new direction may be left out
@@ -72,7 +74,9 @@ class _Builder:
         K, self.metric = terms.matrices(training[0])
         top, shift = float((2 * np.pi * highest_hz) ** 2), norm_shift(highest_hz)
         self.operator = K + shift * self.metric
-        self.solve = factorize(self.operator)
+        # a block's matrices are larger and fuller than a half pitch's
+        self.factorize = best_available() if terms.parity == MIRROR else factorize
+        self.solve = self.factorize(self.operator)
         size, count = self.operator.shape[0], len(self.weights[0])
         self.basis = np.empty((size, 0))
         self.images = np.empty((count, size, 0))
@@ -115,7 +119,7 @@ class _Builder:
         if number not in self.solved:
             K, M = self.terms.matrices(self.training[number])
             # the reference's own shifted matrix is factorized already
-            back_end = factorize if number else lambda _: self.solve
+            back_end = self.factorize if number else lambda _: self.solve
             found = modes_below(K, M, self.highest_hz, self.expected, beyond=BEYOND, back_end=back_end)
             self.expected = len(found[0]) + 2
             self.solved = {number: found}

@@ -10,16 +10,16 @@ import hashlib
 import io
 import zipfile
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 
 import numpy as np
 
-from statorhom.mesh.hex_mesh import HalfPitchMesh
-from statorhom.model.harmonic import Harmonic
+from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.local_basis import LocalBasis
 from statorhom.model.reduced import MaterialBox, ReducedHarmonic
 from statorhom.model.residual_norm import ResidualNorm
+from statorhom.model.space import Space
 from statorhom.study.atomic import write_bytes
 
 FORMAT = 2  # raised when the same inputs shall give another basis
@@ -36,16 +36,16 @@ _DAMAGED = (
 _ARRAYS = ("basis", "stiffness", "mass", "factor", "scales", "numbers")
 
 
-def basis_key(
-    mesh: HalfPitchMesh, harmonic: Harmonic, box: MaterialBox, highest_hz: float, tolerance: float
-) -> str:
+def basis_key(mesh: PartMesh, harmonic: Space, box: MaterialBox, highest_hz: float, tolerance: float) -> str:
     """SHA-256 of everything that a reduced harmonic depends on, in hexadecimal."""
     digest = hashlib.sha256()
-    words = (FORMAT, mesh.slots, mesh.regions, harmonic.order, harmonic.parity, harmonic.axial)
+    parts = {field.name: getattr(mesh, field.name) for field in fields(mesh)}
+    of_mesh = {name: part for name, part in parts.items() if not isinstance(part, np.ndarray)}
+    words = (FORMAT, mesh.axes, sorted(of_mesh.items()), harmonic.order, harmonic.parity, harmonic.axial)
     digest.update(
         repr((*words, box.span.regions, box.span.groups, float(highest_hz), float(tolerance))).encode()
     )
-    arrays = [mesh.nodes, mesh.elements, mesh.region, mesh.tooth_plane, mesh.slot_plane]
+    arrays = [part for _, part in sorted(parts.items()) if isinstance(part, np.ndarray)]
     for cell in box.training:
         arrays += [array for point in cell for array in (point.hooke, point.density)]
     for array in arrays:
@@ -92,9 +92,7 @@ class BasisStore:
         np.savez(file, allow_pickle=False, **content)
         write_bytes(self.path(key), file.getvalue())
 
-    def read(
-        self, key: str, harmonic: Harmonic, box: MaterialBox, highest_hz: float
-    ) -> ReducedHarmonic | None:
+    def read(self, key: str, harmonic: Space, box: MaterialBox, highest_hz: float) -> ReducedHarmonic | None:
         """The reduced harmonic of a key; None where there is none that is sound."""
         try:
             with self.path(key).open("rb") as stream, np.load(stream, allow_pickle=False) as file:
@@ -107,7 +105,7 @@ class BasisStore:
         return ReducedHarmonic(harmonic, cells, highest_hz)
 
 
-def _cell(arrays: list[np.ndarray], harmonic: Harmonic, box: MaterialBox) -> LocalBasis:
+def _cell(arrays: list[np.ndarray], harmonic: Space, box: MaterialBox) -> LocalBasis:
     """A basis from its arrays.
 
     Raises

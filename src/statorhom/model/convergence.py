@@ -44,15 +44,15 @@ class ModeConvergence:
 
 
 def mode_keys(modes: Iterable[StatorMode]) -> dict[ModeKey, StatorMode]:
-    """Visible modes by (order, axial, rank); modes must be sorted by frequency."""
+    """Visible modes by their family (order, axial) and rank; modes must be sorted by frequency."""
     found: dict[ModeKey, StatorMode] = {}
     for mode in modes:
-        if mode.order is None or mode.axial is None:
+        if (family := mode.family) is None:
             continue
         rank = 0
-        while (mode.order, mode.axial, rank) in found:
+        while (*family, rank) in found:
             rank += 1
-        found[(mode.order, mode.axial, rank)] = mode
+        found[(*family, rank)] = mode
     return found
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -18,3 +18,6 @@ def cylindrical(positions: np.ndarray) -> np.ndarray:
 def cartesian(positions: np.ndarray) -> np.ndarray:
     """Axes x, y, z: a plate's or a beam's."""
     return np.zeros(positions.shape[:-1])
+
+
+FRAMES: Mapping[str, Frame] = {"cylindrical": cylindrical, "cartesian": cartesian}

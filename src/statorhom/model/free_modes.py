@@ -1,4 +1,4 @@
-"""All modes of the free stator in a band, harmonic by harmonic, on the full model."""
+"""All modes of the free stator or coupon in a band, problem by problem, on the full model."""
 
 from __future__ import annotations
 
@@ -8,14 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
-from statorhom.model.cyclic.half_pitch import half_pitches
-from statorhom.model.cyclic.modes import modes_of
-from statorhom.model.harmonic import Harmonic, all_orders, spaces_of
-from statorhom.model.pitch_parts import pitch_parts
-from statorhom.model.radial_profile import RadialProfile, node_planes, radial_profile
-from statorhom.model.stator_mode import StatorMode, name_modes
+from statorhom.model.problems import eigenpairs_of, orders_of, profile_of
+from statorhom.model.radial_profile import node_planes
+from statorhom.model.space import MIRROR, Profile, Space
+from statorhom.model.stator_mode import StatorMode, modes_of_parities, name_modes
 
 
 @dataclass(frozen=True)
@@ -31,7 +29,7 @@ class FreeModes:
     """
 
     modes: tuple[StatorMode, ...]
-    harmonics: tuple[Harmonic, ...]
+    harmonics: tuple[Space, ...]
     shapes: tuple[np.ndarray, ...]
     profiles: tuple[np.ndarray, ...]
 
@@ -41,7 +39,7 @@ class FreeModes:
 
 
 def solve_free(
-    model: AffineModel,
+    model: AffineModel[PartMesh],
     materials: Materials,
     highest_hz: float,
     orders: Iterable[int] | None = None,
@@ -73,7 +71,7 @@ class FreeProblem:
     mass : of the whole stator (kg).
     """
 
-    mesh: HalfPitchMesh
+    mesh: PartMesh
     K: sp.csr_array
     M: sp.csr_array
     mass: float
@@ -86,12 +84,10 @@ class FreeProblem:
         jobs: int = 1,
     ) -> FreeModes:
         """Modes of the band; see `solve_free`."""
-        profile = radial_profile(self.mesh)
-        parts = pitch_parts(self.mesh)
-        wanted = all_orders(self.mesh.slots) if orders is None else orders
-        spaces = [space for order in wanted for space in spaces_of(parts, order)]
-        pairs = modes_of(half_pitches(parts, self.K, self.M), spaces, highest_hz, most, jobs)
-        found = [_solved(space, profile, *pair) for space, pair in zip(spaces, pairs, strict=True)]
+        profile = profile_of(self.mesh)
+        wanted = orders_of(self.mesh) if orders is None else orders
+        pairs = eigenpairs_of(self.mesh, self.K, self.M, highest_hz, wanted, most, jobs)
+        found = [_solved(space, profile, values, vectors) for space, values, vectors in pairs]
         modes = [mode for i, part in enumerate(found) for mode in self._named(part, i)]
         modes.sort(key=lambda mode: mode.frequency_hz)
         return FreeModes(
@@ -103,6 +99,15 @@ class FreeProblem:
 
     def _named(self, part: _Solved, number: int) -> list[StatorMode]:
         count = len(part.values)
+        if part.harmonic.parity == MIRROR:
+            return modes_of_parities(
+                part.values,
+                part.amplitudes,
+                parities=[part.harmonic.order] * count,
+                mass=self.mass,
+                problem=[number] * count,
+                column=range(count),
+            )
         return name_modes(
             part.values,
             part.amplitudes,
@@ -119,29 +124,31 @@ class FreeProblem:
 class _Solved:
     """One harmonic problem: λ (k,), shapes (3 n, k) of unit modal mass, their amplitudes (planes, k)."""
 
-    harmonic: Harmonic
+    harmonic: Space
     values: np.ndarray
     shape: np.ndarray
     amplitudes: np.ndarray
 
 
-def _solved(harmonic: Harmonic, profile: RadialProfile, values: np.ndarray, vectors: np.ndarray) -> _Solved:
+def _solved(harmonic: Space, profile: Profile, values: np.ndarray, vectors: np.ndarray) -> _Solved:
     shape = harmonic.expand(vectors) / np.sqrt(harmonic.copies)
     return _Solved(harmonic, values, shape, profile.orders(harmonic, shape))
 
 
-def problem_at(model: AffineModel, materials: Materials) -> FreeProblem:
+def problem_at(model: AffineModel[PartMesh], materials: Materials) -> FreeProblem:
     """The problem of a model at given materials."""
     K, M = model.stiffness_matrix(materials), model.mass_matrix(materials)
     return FreeProblem(model.mesh, K, M, total_mass(model, materials))
 
 
-def total_mass(model: AffineModel, materials: Materials) -> float:
+def total_mass(model: AffineModel[PartMesh], materials: Materials) -> float:
     """Mass of the whole stator's mesh (kg)."""
     return sum(materials[region].density * volume for region, volume in model.volumes.items())
 
 
-def strain_energy_shares(model: AffineModel, materials: Materials, shape: np.ndarray) -> dict[str, float]:
+def strain_energy_shares(
+    model: AffineModel[PartMesh], materials: Materials, shape: np.ndarray
+) -> dict[str, float]:
     """Share of each region in the strain energy of a half-pitch shape (3 n,) complex."""
     energy = {}
     for region in model.stiffness:

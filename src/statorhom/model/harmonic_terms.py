@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel
-from statorhom.model.harmonic import Harmonic
 from statorhom.model.material_span import MaterialPoint, MaterialSpan
+from statorhom.model.space import Space
 
 
 @dataclass(frozen=True)
@@ -22,6 +23,7 @@ class HarmonicTerms:
     span : directions of the materials.
     stiffness, mass : (directions, entries) and (regions, entries) values on the common pattern.
     indices, indptr : of the pattern, symmetric.
+    parity : of the harmonic.
     """
 
     span: MaterialSpan
@@ -29,6 +31,7 @@ class HarmonicTerms:
     mass: np.ndarray
     indices: np.ndarray
     indptr: np.ndarray
+    parity: str
 
     def matrices(self, point: MaterialPoint) -> tuple[sp.csr_array, sp.csr_array]:
         """K and M at given materials."""
@@ -44,7 +47,7 @@ class HarmonicTerms:
         return sp.csr_array((data, self.indices, self.indptr), shape=(n, n))
 
 
-def harmonic_terms(model: AffineModel, harmonic: Harmonic, span: MaterialSpan) -> HarmonicTerms:
+def harmonic_terms(model: AffineModel[PartMesh], harmonic: Space, span: MaterialSpan) -> HarmonicTerms:
     """Project the terms of a model."""
     stiffness = [
         harmonic.project(model.pattern.matrix(_stiffness(model, direction, members)))
@@ -63,10 +66,12 @@ def harmonic_terms(model: AffineModel, harmonic: Harmonic, span: MaterialSpan) -
             row[np.searchsorted(places, _keys(term, n))] = term.data
         return data
 
-    return HarmonicTerms(span, spread(stiffness), spread(mass), pattern.indices, pattern.indptr)
+    return HarmonicTerms(
+        span, spread(stiffness), spread(mass), pattern.indices, pattern.indptr, harmonic.parity
+    )
 
 
-def _stiffness(model: AffineModel, direction: np.ndarray, regions: Sequence[str]) -> np.ndarray:
+def _stiffness(model: AffineModel[PartMesh], direction: np.ndarray, regions: Sequence[str]) -> np.ndarray:
     """Entries of K per unit of a direction in which regions move together."""
     return np.asarray(sum(np.tensordot(direction, model.stiffness[region], axes=1) for region in regions))
 

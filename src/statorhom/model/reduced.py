@@ -13,14 +13,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.basis_greedy import local_basis
 from statorhom.model.blas_threads import one_blas_thread
-from statorhom.model.harmonic import Harmonic
 from statorhom.model.harmonic_terms import harmonic_terms
 from statorhom.model.local_basis import LocalBasis
 from statorhom.model.material_cells import MaterialCells, material_cells
 from statorhom.model.material_span import MaterialPoint, MaterialSpan, material_point, material_span
+from statorhom.model.space import Space
 
 RADIUS = 1.0  # of the cells: energies within one differ by about this much in their logarithm
 MOST_CELLS = 12  # more make an evaluation faster and the bases dearer
@@ -72,7 +73,7 @@ class ReducedHarmonic:
     highest_hz : upper end of the band in which it is certified.
     """
 
-    harmonic: Harmonic
+    harmonic: Space
     cells: tuple[LocalBasis, ...]
     highest_hz: float
 
@@ -83,8 +84,8 @@ class ReducedHarmonic:
 
 
 def reduce_harmonic(
-    model: AffineModel,
-    harmonic: Harmonic,
+    model: AffineModel[PartMesh],
+    harmonic: Space,
     box: MaterialBox,
     highest_hz: float,
     tolerance: float = 3e-4,

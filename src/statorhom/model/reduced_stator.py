@@ -8,15 +8,18 @@ from functools import cached_property
 
 import numpy as np
 
+from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.local_basis import norm_shift
 from statorhom.model.material_cells import stiffness_ratio
 from statorhom.model.material_span import MaterialPoint, material_point
-from statorhom.model.radial_profile import RadialProfile, node_planes, radial_profile
+from statorhom.model.problems import profile_of
+from statorhom.model.radial_profile import node_planes
 from statorhom.model.reduced import MaterialBox, ReducedHarmonic
 from statorhom.model.reduced_batch import BatchPairs, ReducedBatch, reduced_batches
-from statorhom.model.stator_mode import StatorMode, name_modes
+from statorhom.model.space import MIRROR
+from statorhom.model.stator_mode import StatorMode, modes_of_parities, name_modes
 
 UNIT_DENSITY = 1e-12  # relative: densities that count as the typical ones
 
@@ -28,6 +31,7 @@ class ProblemKind:
     order: int
     multiplicity: int
     copies: int
+    parity: str
 
 
 @dataclass(frozen=True)
@@ -108,16 +112,15 @@ class ReducedModes:
             np.concatenate([part[i] for part in columns], axis=-1) for i in range(4)
         )
         kinds = [self.stator.kinds[p] for p in problems]
-        found = name_modes(
-            values,
-            amplitudes / np.sqrt([k.copies for k in kinds]),
-            node_planes(amplitudes),
-            order=[k.order for k in kinds],
-            multiplicity=[k.multiplicity for k in kinds],
-            mass=self.mass,
-            problem=problems.tolist(),
-            column=places.tolist(),
-        )
+        of_unit_mass = amplitudes / np.sqrt([k.copies for k in kinds])
+        orders = [k.order for k in kinds]
+        known = {"mass": self.mass, "problem": problems.tolist(), "column": places.tolist()}
+        if any(k.parity == MIRROR for k in kinds):
+            found = modes_of_parities(values, of_unit_mass, parities=orders, **known)
+        else:
+            multiplicity = [k.multiplicity for k in kinds]
+            nodes = node_planes(amplitudes)
+            found = name_modes(values, of_unit_mass, nodes, order=orders, multiplicity=multiplicity, **known)
         return tuple(sorted(found, key=lambda mode: mode.frequency_hz))
 
     @staticmethod
@@ -186,7 +189,7 @@ class ReducedModes:
 
 
 def reduced_stator(
-    model: AffineModel,
+    model: AffineModel[PartMesh],
     box: MaterialBox,
     problems: Sequence[ReducedHarmonic],
     highest_hz: float,
@@ -194,7 +197,7 @@ def reduced_stator(
 ) -> ReducedStator:
     """Arrange reduced harmonics for evaluation up to a frequency, fastest at the densities of `typical`."""
     densities = material_point(typical, box.span.regions).density
-    profile: RadialProfile = radial_profile(model.mesh)
+    profile = profile_of(model.mesh)
     batches = []
     for cell in range(len(box.training)):
         bases = [p.cells[cell] for p in problems]
@@ -203,7 +206,9 @@ def reduced_stator(
             for p, b in zip(problems, bases, strict=True)
         ]
         batches.append(reduced_batches(bases, profiles, densities))
-    kinds = tuple(ProblemKind(p.harmonic.order, p.harmonic.multiplicity, p.harmonic.copies) for p in problems)
+    kinds = tuple(
+        ProblemKind(h.order, h.multiplicity, h.copies, h.parity) for h in (p.harmonic for p in problems)
+    )
     certified = min((p.highest_hz for p in problems), default=highest_hz)
     error = max((p.error for p in problems), default=0.0)
     return ReducedStator(

@@ -1,4 +1,4 @@
-"""A simulated mode of the stator, with its name."""
+"""A simulated mode of the tested object, with its name."""
 
 from __future__ import annotations
 
@@ -22,11 +22,12 @@ class StatorMode:
     ----------
     frequency_hz : undamped natural frequency.
     order, axial : the name (r, n); None where the surface has no significant radial motion.
-    kind : "radial" or "winding" (or "torsion", "axial": see `kind_of`).
+    kind : "radial" or "winding" (or "torsion", "axial": see `kind_of`); "" of a body that is no stator.
     visibility : mean square radial order-r motion of the surface times the stator's mass over the modal mass, cut at 1.
     multiplicity : 2 for a doublet.
     problem : number of the harmonic problem in its solver's list.
     column : number of the mode in that problem.
+    parities : number of the combination of parities of a body with mirror planes; None for a stator.
     """
 
     frequency_hz: float
@@ -37,6 +38,17 @@ class StatorMode:
     multiplicity: int
     problem: int
     column: int
+    parities: int | None = None
+
+    @property
+    def family(self) -> tuple[int, int] | None:
+        """Modes of one family never mix with others: (r, n) of a stator, (parities, 0) of a body with mirror planes.
+
+        None where a stator's surface has no significant radial motion.
+        """
+        if self.parities is not None:
+            return self.parities, 0
+        return None if self.order is None or self.axial is None else (self.order, self.axial)
 
 
 def name_modes(
@@ -76,5 +88,29 @@ def name_modes(
             column[i],
         )
         for i, f in enumerate(frequencies)
+        if f >= RIGID_HZ
+    ]
+
+
+def modes_of_parities(
+    eigenvalues: np.ndarray,
+    amplitudes: np.ndarray,
+    *,
+    parities: Sequence[int],
+    mass: float,
+    problem: Sequence[int],
+    column: Sequence[int],
+) -> list[StatorMode]:
+    """Modes of a body with mirror planes, rigid bodies left out; see `name_modes`.
+
+    Parameters
+    ----------
+    amplitudes : (p, k) normal motion of shapes of unit modal mass at points of the faces.
+    parities : numbers of the combinations.
+    """
+    visibility = np.minimum(1.0, mass * np.mean(amplitudes**2, axis=0)).tolist()
+    return [
+        StatorMode(f, None, None, "", visibility[i], 1, problem[i], column[i], parities[i])
+        for i, f in enumerate(frequency_hz(eigenvalues).tolist())
         if f >= RIGID_HZ
     ]

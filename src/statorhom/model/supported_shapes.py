@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 import scipy.sparse as sp
@@ -39,6 +40,17 @@ class ShapePart:
         """Whether it is the sine family, and its coordinates."""
         both = ((False, self.cosine), (True, self.sine))
         return tuple((sine, part) for sine, part in both if part is not None)
+
+
+class SurfaceModes(Protocol):
+    """Modes whose motion on the outer surface is known."""
+
+    @property
+    def frequencies_hz(self) -> np.ndarray: ...
+
+    def __len__(self) -> int: ...
+
+    def motion(self, points: SurfacePoints) -> np.ndarray: ...
 
 
 @dataclass(frozen=True)

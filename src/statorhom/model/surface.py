@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import scipy.sparse as sp
@@ -59,7 +60,7 @@ def surface_radius(mesh: HalfPitchMesh) -> float:
 
 def surface_levels(mesh: HalfPitchMesh) -> np.ndarray:
     """Axial positions (m) of the corner nodes on the outer surface, ascending."""
-    faces = _Faces(mesh)
+    faces = _faces(mesh)
     return np.unique(np.round(np.concatenate([faces.low, faces.high]), 9))
 
 
@@ -76,9 +77,13 @@ def surface_points(mesh: HalfPitchMesh, angles: np.ndarray, z: np.ndarray) -> Su
     pitch = np.round(angles / pitch_angle).astype(int)
     local = angles - pitch * pitch_angle
     mirrored = local < 0
-    faces = _Faces(mesh)
-    matrix = faces.interpolation(np.abs(local), z)
+    matrix = _faces(mesh).interpolation(np.abs(local), z)
     return SurfacePoints(matrix, pitch % mesh.slots, mirrored)
+
+
+@lru_cache(maxsize=8)
+def _faces(mesh: HalfPitchMesh) -> _Faces:
+    return _Faces(mesh)
 
 
 class _Faces:

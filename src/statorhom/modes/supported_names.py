@@ -9,7 +9,7 @@ import numpy as np
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.free_modes import total_mass
 from statorhom.model.stator_mode import VISIBLE
-from statorhom.model.supported_shapes import SupportedModes
+from statorhom.model.supported_shapes import SurfaceModes
 from statorhom.model.surface_grid import SamplingGrid, sampling_grid
 from statorhom.modes.naming import name_shape
 
@@ -26,7 +26,7 @@ class SupportedMode:
     visibility : twice the mean square radial motion times the stator's mass over the modal mass, cut at 1.
     multiplicity : 1: a support splits the doublets.
     share : the order's part of the radial mean square; for other kinds the part of the motion not radial.
-    column : number of the mode in `SupportedModes`.
+    column : number of the mode in `SurfaceModes`.
     """
 
     frequency_hz: float
@@ -40,7 +40,7 @@ class SupportedMode:
 
 
 def name_supported(
-    modes: SupportedModes, model: AffineModel, materials: Materials, grid: SamplingGrid | None = None
+    modes: SurfaceModes, model: AffineModel, materials: Materials, grid: SamplingGrid | None = None
 ) -> tuple[SupportedMode, ...]:
     """Name all modes by the motion of the outer surface.
 

@@ -32,7 +32,7 @@ def stage_digest(files: StudyFiles, stage_index: int, extra: Mapping[str, Any]) 
     stages = files.study.stages[: stage_index + 1]
     used = {test.support for stage in stages for test in stage.tests}
     content = {
-        "geometry": files.geometry.model_dump(mode="json", exclude={"name"}),
+        "geometry": files.drawing.model_dump(mode="json", exclude={"name"}),
         "supports": [
             support.model_dump(mode="json") for support in files.study.supports if support.name in used
         ],

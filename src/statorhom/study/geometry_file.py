@@ -1,4 +1,4 @@
-"""The geometry file: dimensions of a stator as its drawing gives them.
+"""The geometry file of a stator: dimensions as its drawing gives them.
 
 Only single keys are checked here. Whether the dimensions fit each other is the business of the geometry.
 """
@@ -13,7 +13,7 @@ from pydantic import Field, model_validator
 from statorhom.study.keys import Keys, NotNegative, Number, Positive, Title, WholeNumber
 from statorhom.study.toml_file import read_toml
 
-_KINDS_TO_COME = ("plate", "beam", "tube", "wing")
+_OTHER_KINDS = ("plate", "beam", "tube", "wing")
 
 SlotCount = Annotated[WholeNumber, Field(ge=3, le=1000)]
 
@@ -122,13 +122,16 @@ class GeometryFile(Keys):
     def _no_coupon(cls, table: Any) -> Any:
         # told before the keys of such a file are all called unknown
         kind = table.get("kind") if isinstance(table, dict) else None
-        if kind in _KINDS_TO_COME:
-            raise ValueError(f'kind = "{kind}" cannot be computed yet; use a geometry of kind = "stator"')
+        if kind in _OTHER_KINDS:
+            raise ValueError(f"a {kind} is no stator, and this works on stators only; {STATORS_ONLY}")
         return table
 
 
+STATORS_ONLY = 'use simulate, fit, run or report, or a geometry of kind = "stator"'
+
+
 def read_geometry(path: Path) -> GeometryFile:
-    """Read a geometry file.
+    """Read a stator's geometry file.
 
     Parameters
     ----------

@@ -6,11 +6,13 @@ from collections.abc import Iterator, Mapping
 
 from statorhom.study.message import quoted
 from statorhom.study.nearest import hint
-from statorhom.study.regions import CONSTANTS, Symmetry, is_modulus
+from statorhom.study.regions import Symmetry, is_modulus
 from statorhom.study.stages import IdentifyKeys
 
+Names = Mapping[Symmetry, tuple[str, ...]]
 
-def check_identify(where: str, keys: IdentifyKeys, symmetries: Mapping[str, Symmetry]) -> None:
+
+def check_identify(where: str, keys: IdentifyKeys, symmetries: Mapping[str, Symmetry], names: Names) -> None:
     """Check the names and values of fixed, tied and prior constants.
 
     Parameters
@@ -21,6 +23,8 @@ def check_identify(where: str, keys: IdentifyKeys, symmetries: Mapping[str, Symm
         What the file says.
     symmetries : mapping
         Symmetry of every region that is declared at this stage.
+    names : mapping
+        The constants of a symmetry.
 
     Raises
     ------
@@ -28,7 +32,7 @@ def check_identify(where: str, keys: IdentifyKeys, symmetries: Mapping[str, Symm
         ``problem; remedy`` of the first fault.
     """
     for key, region, constant in _mentioned(keys):
-        _check_known(f"{where}.identify.{key}", region, constant, symmetries)
+        _check_known(f"{where}.identify.{key}", region, constant, symmetries, names)
     for region, values in keys.fixed.items():
         for constant, value in values.items():
             _check_sign(f"{where}.identify.fixed.{region}.{constant}", constant, value)
@@ -48,15 +52,17 @@ def _mentioned(keys: IdentifyKeys) -> Iterator[tuple[str, str, str | None]]:
         yield from (("tied", region, constant) for group in groups for constant in group)
 
 
-def _check_known(where: str, region: str, constant: str | None, symmetries: Mapping[str, Symmetry]) -> None:
+def _check_known(
+    where: str, region: str, constant: str | None, symmetries: Mapping[str, Symmetry], names: Names
+) -> None:
     if region not in symmetries:
         remedy = hint(region, symmetries) if symmetries else "declare a symmetry in [stages.model]"
         raise ValueError(f"{where}: no region {quoted(region)} is declared at this stage; {remedy}")
     symmetry = symmetries[region]
-    if constant is not None and constant not in CONSTANTS[symmetry]:
+    if constant is not None and constant not in names[symmetry]:
         raise ValueError(
             f"{where}.{region}: the {symmetry} region has no constant {quoted(constant)}; "
-            f"{hint(constant, CONSTANTS[symmetry])}"
+            f"{hint(constant, names[symmetry])}"
         )
 
 

@@ -23,6 +23,10 @@ _COLUMNS = {
     "modal_constant_per_kg": table_cells.number,
     "modal_constant_phase_deg": table_cells.number,
     "mode": table_cells.text,
+    "loss_factor_sd": table_cells.positive,
+    "damping_ratio_sd": table_cells.positive,
+    "frequency_without_sensor_hz": table_cells.positive,
+    "frequency_without_sensor_sd_hz": table_cells.positive,
 }
 
 
@@ -44,6 +48,10 @@ class MeasuredMode:
         Circumferential order r and number n of axial node planes, where the user knows them.
     modal_constant_per_kg, modal_constant_phase_deg : float, 1/kg and degrees
         Modal constant of the receptance.
+    loss_factor_sd : float or None
+        Standard deviation of the loss factor.
+    frequency_without_sensor_hz, frequency_without_sensor_sd_hz : float or None, Hz
+        What the frequency would be without the mass of a roving accelerometer, where its poles tell that.
     """
 
     row: int
@@ -55,6 +63,9 @@ class MeasuredMode:
     axial: int | None = None
     modal_constant_per_kg: float | None = None
     modal_constant_phase_deg: float | None = None
+    loss_factor_sd: float | None = None
+    frequency_without_sensor_hz: float | None = None
+    frequency_without_sensor_sd_hz: float | None = None
 
     @property
     def label(self) -> str:
@@ -100,10 +111,10 @@ def read_modal_table(path: Path) -> ModalTable:
         One line with file, row, column and remedy.
     """
     header, rows = read_csv(path, known=tuple(_COLUMNS), required=("frequency_hz",))
-    if {"damping_ratio", "loss_factor"} <= set(header):
-        raise input_error(
-            path, "header", "has both damping_ratio and loss_factor", "keep one of the two (loss = 2 damping)"
-        )
+    for end in ("", "_sd"):
+        if {f"damping_ratio{end}", f"loss_factor{end}"} <= set(header):
+            what = f"has both damping_ratio{end} and loss_factor{end}"
+            raise input_error(path, "header", what, "keep one of the two (loss = 2 damping)")
     table = ModalTable(path, tuple(_mode(path, number, row) for number, row in enumerate(rows, start=1)))
     _refuse_kilohertz(table)
     _refuse_duplicates(table)
@@ -118,9 +129,10 @@ def _mode(path: Path, number: int, row: Row) -> MeasuredMode:
         raise input_error(
             path, f"line {row.line}, column frequency_hz", "is empty", "type the frequency or delete the row"
         )
-    damping = values.pop("damping_ratio", None)
-    if damping is not None:
-        values["loss_factor"] = 2.0 * damping
+    for column in ("damping_ratio", "damping_ratio_sd"):
+        damping = values.pop(column, None)
+        if damping is not None:
+            values[column.replace("damping_ratio", "loss_factor")] = 2.0 * damping
     return MeasuredMode(row=number, **{"mode": None, **values})
 
 

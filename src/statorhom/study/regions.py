@@ -1,4 +1,4 @@
-"""Regions of a stator, the steps that add them, and the elastic constants of the symmetries."""
+"""Regions of a stator or a coupon, the steps that add them, and the elastic constants of the symmetries."""
 
 from __future__ import annotations
 
@@ -6,11 +6,13 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Literal
 
-Region = Literal["lamination", "winding", "overhang", "frame", "machine"]
-StageKind = Literal["stack", "wound", "impregnated", "framed", "machine"]
+Region = Literal["lamination", "winding", "overhang", "frame", "machine", "plate", "beam", "tube"]
+StageKind = Literal["stack", "wound", "impregnated", "framed", "machine", "coupon"]
 Symmetry = Literal["isotropic", "transversely_isotropic", "orthotropic"]
 
-REGIONS: tuple[Region, ...] = ("lamination", "winding", "overhang", "frame", "machine")
+#: Regions of coupons: a test piece has one, named after its kind.
+COUPON_REGIONS: tuple[Region, ...] = ("plate", "beam", "tube")
+REGIONS: tuple[Region, ...] = ("lamination", "winding", "overhang", "frame", "machine", *COUPON_REGIONS)
 
 #: Regions that a step adds or changes, the steps in the order of fabrication.
 REGIONS_OF_KIND: Mapping[StageKind, tuple[Region, ...]] = MappingProxyType(
@@ -20,10 +22,14 @@ REGIONS_OF_KIND: Mapping[StageKind, tuple[Region, ...]] = MappingProxyType(
         "impregnated": ("winding", "overhang"),
         "framed": ("frame",),
         "machine": ("machine",),
+        "coupon": COUPON_REGIONS,
     }
 )
 
-STAGE_KINDS: tuple[StageKind, ...] = tuple(REGIONS_OF_KIND)
+#: The one stage of a test piece.
+COUPON: StageKind = "coupon"
+#: The steps of a stator, in the order of fabrication.
+STAGE_KINDS: tuple[StageKind, ...] = tuple(kind for kind in REGIONS_OF_KIND if kind != COUPON)
 
 #: Engineering constants of a symmetry, as they are named in files; those ending in ``_pa`` are moduli.
 CONSTANTS: Mapping[Symmetry, tuple[str, ...]] = MappingProxyType(
@@ -40,6 +46,25 @@ CONSTANTS: Mapping[Symmetry, tuple[str, ...]] = MappingProxyType(
             "G_rt_pa",
             "G_rz_pa",
             "G_tz_pa",
+        ),
+    }
+)
+
+
+#: The same of a coupon: its axes are 1, 2, 3 instead of r, θ, z where all three differ.
+COUPON_CONSTANTS: Mapping[Symmetry, tuple[str, ...]] = MappingProxyType(
+    {
+        **CONSTANTS,
+        "orthotropic": (
+            "E_1_pa",
+            "E_2_pa",
+            "E_3_pa",
+            "nu_12",
+            "nu_13",
+            "nu_23",
+            "G_12_pa",
+            "G_13_pa",
+            "G_23_pa",
         ),
     }
 )

@@ -8,10 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from statorhom.study.frozen_map import FrozenMap
-from statorhom.study.geometry_file import GeometryFile, read_geometry
+from statorhom.study.geometry_file import GeometryFile
 from statorhom.study.message import input_error, quoted
 from statorhom.study.modal_table import ModalTable, read_modal_table
 from statorhom.study.modal_tests import ModalTestKeys
+from statorhom.study.object_file import STATOR, ObjectFile, read_object, stator_file
+from statorhom.study.regions import COUPON
 from statorhom.study.study_file import StudyFile, read_study_file
 
 # The lamination needs no section of its own: [core] describes it.
@@ -27,7 +29,8 @@ class StudyFiles:
     path : Path
         The study file.
     study : StudyFile
-    geometry : GeometryFile
+    drawing : GeometryFile or that of a coupon
+        What the geometry file describes.
     geometry_path : Path
     tables : mapping of str to ModalTable
         The modal table of every test that has one, by the test's name.
@@ -35,9 +38,20 @@ class StudyFiles:
 
     path: Path
     study: StudyFile
-    geometry: GeometryFile
+    drawing: ObjectFile
     geometry_path: Path
     tables: Mapping[str, ModalTable]
+
+    @property
+    def geometry(self) -> GeometryFile:
+        """The stator's geometry file.
+
+        Raises
+        ------
+        InputFileError
+            If the study is of another object.
+        """
+        return stator_file(self.drawing, self.geometry_path)
 
 
 def load_study(path: str | os.PathLike[str]) -> StudyFiles:
@@ -60,15 +74,17 @@ def load_study(path: str | os.PathLike[str]) -> StudyFiles:
     path = Path(path)
     study = read_study_file(path)
     geometry_path = _existing(path, "geometry", study.geometry)
-    geometry = read_geometry(geometry_path)
-    _check_sections(path, study, geometry, geometry_path)
+    drawing = read_object(geometry_path)
+    _check_kind(path, study, drawing, geometry_path)
+    if isinstance(drawing, GeometryFile):
+        _check_sections(path, study, drawing, geometry_path)
     tables: dict[str, ModalTable] = {}
     for stage in study.stages:
         for test in stage.tests:
             table = _read_test(path, f"stages[{stage.name}].tests[{test.name}]", test)
             if table is not None:
                 tables[test.name] = table
-    return StudyFiles(path, study, geometry, geometry_path, FrozenMap(tables))
+    return StudyFiles(path, study, drawing, geometry_path, FrozenMap(tables))
 
 
 def _existing(study_path: Path, where: str, typed: str) -> Path:
@@ -81,6 +97,26 @@ def _existing(study_path: Path, where: str, typed: str) -> Path:
             "correct the path (relative to the study's folder) or put the file there",
         )
     return path
+
+
+def _check_kind(path: Path, study: StudyFile, drawing: ObjectFile, geometry_path: Path) -> None:
+    """A stator has steps of fabrication, a coupon one stage whose region is the coupon."""
+    stage = study.stages[0]
+    if (stage.kind == COUPON) != (drawing.kind != STATOR):
+        raise input_error(
+            path,
+            f"stages[{stage.name}].kind",
+            f"is {stage.kind}, but {geometry_path} describes a {drawing.kind}",
+            "a coupon's one stage has kind = \"coupon\", a stator's stages those of its fabrication",
+        )
+    other = [region for region in stage.model.declared if stage.kind == COUPON and region != drawing.kind]
+    if other:
+        raise input_error(
+            path,
+            f"stages[{stage.name}].model.{other[0]}",
+            f"{geometry_path} describes a {drawing.kind}",
+            f"declare {drawing.kind} instead",
+        )
 
 
 def _check_sections(path: Path, study: StudyFile, geometry: GeometryFile, geometry_path: Path) -> None:

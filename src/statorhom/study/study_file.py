@@ -11,7 +11,16 @@ from statorhom.study.identify_checks import check_identify
 from statorhom.study.keys import Keys, Name, Title
 from statorhom.study.message import quoted
 from statorhom.study.nearest import hint
-from statorhom.study.regions import REGIONS, REGIONS_OF_KIND, STAGE_KINDS, Region, Symmetry
+from statorhom.study.regions import (
+    CONSTANTS,
+    COUPON,
+    COUPON_CONSTANTS,
+    REGIONS,
+    REGIONS_OF_KIND,
+    STAGE_KINDS,
+    Region,
+    Symmetry,
+)
 from statorhom.study.stages import StageKeys
 from statorhom.study.supports import SupportKeys
 from statorhom.study.toml_file import read_toml
@@ -42,6 +51,8 @@ class StudyFile(Keys):
 
     def regions(self, stage_index: int) -> tuple[Region, ...]:
         """Regions that exist after a stage; the overhang always comes with the winding."""
+        if self.stages[stage_index].kind == COUPON:
+            return tuple(self.stages[stage_index].model.declared)
         present: set[Region] = {"lamination"}
         for stage in self.stages[: stage_index + 1]:
             present.update(REGIONS_OF_KIND[stage.kind], stage.model.declared)
@@ -67,7 +78,10 @@ class StudyFile(Keys):
         _refuse_repeated("supports", [support.name for support in self.supports])
         _refuse_repeated("stages", [stage.name for stage in self.stages])
         _refuse_repeated("tests", [test.name for stage in self.stages for test in stage.tests])
-        _check_order(self)
+        if any(stage.kind == COUPON for stage in self.stages):
+            _check_coupon(self)
+        else:
+            _check_order(self)
         for index in range(len(self.stages)):
             _check_stage(self, index)
         return self
@@ -102,6 +116,27 @@ def _refuse_repeated(what: str, names: list[str]) -> None:
             )
 
 
+def _check_coupon(study: StudyFile) -> None:
+    """A test piece is made in one step and hangs free."""
+    stage = next(stage for stage in study.stages if stage.kind == COUPON)
+    if len(study.stages) > 1:
+        raise ValueError(
+            f"stages[{stage.name}].kind: a coupon is the one stage of its study; delete the other stages or use "
+            f"one of {', '.join(STAGE_KINDS)}"
+        )
+    if not stage.model.declared:
+        regions = " or ".join(REGIONS_OF_KIND[COUPON])
+        raise ValueError(
+            f'stages[{stage.name}].model: nothing is declared; say {regions} = "isotropic" (or another symmetry)'
+        )
+    for test in stage.tests:
+        if test.support != FREE:
+            raise ValueError(
+                f"stages[{stage.name}].tests[{test.name}].support: coupons are computed free only; "
+                f'hang it on soft cords and write support = "free"'
+            )
+
+
 def _check_order(study: StudyFile) -> None:
     ranks = [STAGE_KINDS.index(stage.kind) for stage in study.stages]
     for index in range(1, len(ranks)):
@@ -125,12 +160,15 @@ def _check_stage(study: StudyFile, index: int) -> None:
     _check_declared_regions(study, index)
     if stage.tests:
         _check_all_declared(study, index)
-    check_identify(f"stages[{stage.name}]", stage.identify, _symmetries(study, index))
+    names = COUPON_CONSTANTS if stage.kind == COUPON else CONSTANTS
+    check_identify(f"stages[{stage.name}]", stage.identify, _symmetries(study, index), names)
 
 
 def _check_declared_regions(study: StudyFile, index: int) -> None:
     """A stage speaks of what it adds or changes, and of what skipped steps before it would have added."""
     stage = study.stages[index]
+    if stage.kind == COUPON:
+        return  # which region it has is told by the geometry file
     earlier = study.regions(index - 1) if index else ()
     rank = STAGE_KINDS.index(stage.kind)
     skipped = {region for kind in STAGE_KINDS[:rank] for region in REGIONS_OF_KIND[kind]} - set(earlier)

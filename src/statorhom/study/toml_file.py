@@ -34,7 +34,17 @@ def read_toml(path: Path, model: type[Model]) -> Model:
     InputFileError
         One line with file, key and remedy, where the file is missing, no TOML or breaks the model.
     """
-    table = _parse(path)
+    return validated(path, parsed_toml(path), model)
+
+
+def validated(path: Path, table: dict[str, Any], model: type[Model]) -> Model:
+    """The contents of a file as a pydantic model.
+
+    Raises
+    ------
+    InputFileError
+        One line with file, key and remedy, where the table breaks the model.
+    """
     try:
         return model.model_validate(table)
     except ValidationError as error:
@@ -42,7 +52,14 @@ def read_toml(path: Path, model: type[Model]) -> Model:
         raise input_error(path, where, problem, remedy) from None
 
 
-def _parse(path: Path) -> dict[str, Any]:
+def parsed_toml(path: Path) -> dict[str, Any]:
+    """The contents of a TOML file.
+
+    Raises
+    ------
+    InputFileError
+        Where the file is missing or no TOML.
+    """
     try:
         return tomllib.loads(read_text(path))
     except ValueError as error:

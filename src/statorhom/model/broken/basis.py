@@ -8,9 +8,11 @@ symmetric stator that is nowhere stiffer than any broken one (`statorhom.model.b
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
@@ -71,6 +73,11 @@ class ProblemBasis:
         """Mass products (w, s) and (t, s) of vectors and probes with the surface's static responses."""
         return self.vectors.T @ self.sector.inertial, self.probes.T @ self.sector.inertial
 
+    @cached_property
+    def surface_parts(self) -> tuple[np.ndarray, np.ndarray]:
+        """Loaded coordinates (s, w) and (s, t) of vectors and probes."""
+        return self.vectors[self.sector.loaded], self.probes[self.sector.loaded]
+
 
 @dataclass(frozen=True, eq=False)
 class SymmetricBasis:
@@ -93,6 +100,9 @@ class SymmetricBasis:
     shift: float
     softest: tuple[tuple[Pieces, np.ndarray], ...] = ()
     grams: GramCache = field(default_factory=GramCache, repr=False, compare=False)
+    kept_statics: OrderedDict[tuple[int, ...], Any] = field(
+        default_factory=OrderedDict, init=False, repr=False, compare=False
+    )
 
     @cached_property
     def waves(self) -> Waves:
@@ -103,6 +113,17 @@ class SymmetricBasis:
     def probes(self) -> Waves:
         """Columns of the probes."""
         return self._waves([p.probes for p in self.problems])
+
+    @cached_property
+    def surface_motion(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Displacements of the surface by the loaded coordinates of all problems, one problem after the other.
+
+        Real and imaginary part (d, s) and the harmonic (s,) of every coordinate.
+        """
+        sectors = [p.sector for p in self.problems]
+        moved = np.hstack([s.moved for s in sectors])
+        order = np.repeat([s.space.order for s in sectors], [len(s.loaded) for s in sectors])
+        return np.ascontiguousarray(moved.real), np.ascontiguousarray(moved.imag), order
 
     @cached_property
     def values(self) -> np.ndarray:
@@ -166,6 +187,7 @@ def symmetric_basis(
     *,
     margin: float = MARGIN,
     contact: sp.csr_array | None = None,
+    certified: bool = True,
     jobs: int = 1,
 ) -> SymmetricBasis:
     """Modes of the symmetric stator in a band.
@@ -177,6 +199,7 @@ def symmetric_basis(
     highest_hz : upper end of the band in which the broken symmetry is to be solved.
     margin : the modes reach up to `margin` times `highest_hz`.
     contact : further stiffness of the half pitch (N/m), the same in all copies.
+    certified : False leaves out what tells the errors of a solution; it cannot be enriched then.
     jobs : threads.
 
     Raises
@@ -193,12 +216,14 @@ def symmetric_basis(
     spaces = [s for order in all_orders(model.mesh.slots) for s in spaces_of(parts, order)]
     surface = surface_dofs(model.mesh)
     sectors = [Sector(CyclicProblem(space, shifted[space.axial]), surface) for space in spaces]
-    problems = solved_problems(sectors, margin * highest_hz, jobs)
+    problems = solved_problems(sectors, margin * highest_hz, certified=certified, jobs=jobs)
     return SymmetricBasis(model.mesh, problems, highest_hz, margin * highest_hz, shift)
 
 
-def solved_problems(sectors: Sequence[Sector], highest_hz: float, jobs: int = 1) -> tuple[ProblemBasis, ...]:
-    """All modes of problems up to a frequency, and their probes."""
+def solved_problems(
+    sectors: Sequence[Sector], highest_hz: float, *, certified: bool = True, jobs: int = 1
+) -> tuple[ProblemBasis, ...]:
+    """All modes of problems up to a frequency, and their probes where they are to be certified."""
     pitches = {id(s.problem.shifted): s.problem.shifted.pitch for s in sectors}
     pairs = modes_of(tuple(pitches.values()), [s.space for s in sectors], highest_hz, jobs=jobs)
     found = []
@@ -206,7 +231,8 @@ def solved_problems(sectors: Sequence[Sector], highest_hz: float, jobs: int = 1)
         for sector, (values, vectors) in zip(sectors, pairs, strict=True):
             vectors = vectors / np.sqrt(sector.space.copies)
             images = sector.K @ vectors, sector.M @ vectors
-            found.append(ProblemBasis(sector, sector, values, vectors, *images, probes(sector.problem)))
+            drawn = probes(sector.problem) if certified else np.empty((sector.space.size, 0))
+            found.append(ProblemBasis(sector, sector, values, vectors, *images, drawn))
     return tuple(found)
 
 

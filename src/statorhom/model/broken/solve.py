@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.stats import chi2
-from threadpoolctl import threadpool_limits
 
 from statorhom.errors import SolverError
+from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.broken.basis import PROBES, SymmetricBasis
 from statorhom.model.broken.change import Change, PieceChange
 from statorhom.model.broken.coupling import Coupled, couple
@@ -19,6 +19,7 @@ from statorhom.model.broken.soften import softened
 from statorhom.model.eigen import frequency_hz
 from statorhom.model.stator_mode import RIGID_HZ
 from statorhom.model.supported_shapes import ShapePart, SupportedModes
+from statorhom.model.surface import SurfacePoints
 
 TOLERANCE = 1e-3  # relative error of every frequency in the band
 EXPECTED = (
@@ -31,6 +32,7 @@ NEARLY = 0.3  # of the tolerance: errors from which on modes take part in an enr
 # tolerance, the next one by its square.
 NEGLIGIBLE = 0.2
 CONFIDENCE = 0.95  # of the error estimates
+_MIRROR = np.array([1.0, -1.0, 1.0])
 DEPENDENT = 1e-10  # part of its mass by which a static response must differ from the basis
 
 
@@ -64,6 +66,46 @@ class BrokenModes:
     def frequencies_hz(self) -> np.ndarray:
         """(modes,) natural frequencies."""
         return frequency_hz(self.eigenvalues)
+
+    def motion(self, points: SurfacePoints) -> np.ndarray:
+        """Motion (u_r, u_θ, u_z) of all modes at points of the outer surface, (p, 3, modes) in 1/√kg.
+
+        The same as that of the shapes, without making these: only the surface's coordinates move the surface.
+        """
+        straight, mirrored = self._surface_waves()
+        surface, slots = self.basis.problems[0].sector.surface, self.basis.mesh.slots
+        on_surface = points.matrix[:, surface]
+        side = np.repeat(points.mirrored, 3)
+        total = np.zeros((3 * len(points), len(self)))
+        for order, wave in straight.items():
+            local = np.empty(total.shape, dtype=complex)
+            local[~side] = on_surface[~side] @ wave
+            local[side] = on_surface[side] @ mirrored[order]
+            turn = np.exp(2j * np.pi / slots * (order * points.pitch % slots))
+            total += (local * np.repeat(turn, 3)[:, None]).real
+        sign = np.where(points.mirrored[:, None, None], _MIRROR[:, None], 1.0)
+        return np.asarray(sign * total.reshape(len(points), 3, len(self)))
+
+    def _surface_waves(self) -> tuple[dict[int, np.ndarray], dict[int, np.ndarray]]:
+        """Per harmonic: (d, modes) complex motion of the surface of a straight half pitch, and of a mirrored one.
+
+        Its real part, turned by the pitch's phase, is the motion: that of the cosine and -i times that of the sine
+        family, each conjugate where the half pitch is mirrored.
+        """
+        size, own = len(self.basis.values), self.coupled.statics
+        q, f = self.coordinates[:size], self.coordinates[size:]
+        straight: dict[int, np.ndarray] = {}
+        mirrored: dict[int, np.ndarray] = {}
+        for number, (problem, places) in enumerate(zip(self.basis.problems, self.basis.places, strict=True)):
+            sector, order = problem.sector, problem.sector.space.order
+            for sine, place in places.items():
+                loaded = problem.surface_parts[0] @ q[place]
+                if len(own):
+                    loaded = loaded + sector.flexibility @ (own.loads[number][sine] @ f)
+                moved, factor = sector.moved @ loaded, -1j if sine else 1.0
+                straight[order] = straight.get(order, 0.0) + factor * moved
+                mirrored[order] = mirrored.get(order, 0.0) + factor * np.conj(moved)
+        return straight, mirrored
 
     @property
     def shapes(self) -> SupportedModes:
@@ -100,7 +142,7 @@ def solve_broken(
     SolverError
         If the tolerance cannot be met, or the changes leave a mass or a stiffness that is not definite.
     """
-    with threadpool_limits(limits=1, user_api="blas"):
+    with one_blas_thread():
         if tolerance is None:
             return _within(_solve(basis, changes))
         basis = softened(basis, [c for c in changes if isinstance(c, PieceChange)])
@@ -178,7 +220,10 @@ def _errors(basis: SymmetricBasis, coupled: Coupled, values: np.ndarray, x: np.n
     """Relative frequency errors: the residual in the norm of (K + σM)⁻¹, over what lies above the cut.
 
     λ̃ - λ = Σ c²(λ_i - λ) and ‖r‖² = Σ c²(λ_i - λ)²/(λ_i + σ) over the missing modes i, all above the cut.
+    Without probes nobody knows.
     """
+    if len(coupled.probe_mass) == 0:
+        return np.full(len(values), np.nan)
     residual = (coupled.probe_stiffness @ x - (coupled.probe_mass @ x) * values) ** 2
     squared = np.sum(residual, axis=0) / PROBES
     # the fewer samples carry the sum the more it scatters: its upper confidence limit counts

@@ -8,11 +8,10 @@ solved once per problem (`statorhom.model.broken.sector`).
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-import scipy.sparse as sp
 from scipy.linalg import block_diag
 
 from statorhom.model.broken.basis import ProblemBasis, SymmetricBasis
@@ -22,6 +21,9 @@ from statorhom.model.broken.waves import Waves
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
 DEPENDENT = 1e-24  # squared part of the largest stiffness or mass below which a motion carries neither
+
+KEPT = 4  # sets of places whose responses are kept
+OF_LOADS = ("rows", "products", "probed", "flexibility", "inertia")
 
 Loads = Mapping[bool, np.ndarray]
 
@@ -45,10 +47,16 @@ class Statics:
     def __len__(self) -> int:
         return len(self.stiffness)
 
+    def with_(self, stiffness: np.ndarray, mass: np.ndarray) -> Statics:
+        """The same motions with other springs and masses; what depends on the motions alone is kept."""
+        found = replace(self, stiffness=stiffness, mass=mass)
+        found.__dict__.update({name: self.__dict__[name] for name in OF_LOADS if name in self.__dict__})
+        return found
+
     @cached_property
     def rows(self) -> np.ndarray:
         """LW of the basis, (a, coordinates)."""
-        return self._stacked(lambda p: p.vectors[p.sector.loaded].T).T
+        return self._stacked(lambda p: p.surface_parts[0].T).T
 
     @cached_property
     def products(self) -> np.ndarray:
@@ -64,9 +72,7 @@ class Statics:
         """ζᵀLᵀ and ζᵀMY of the probes, (probes, a) each."""
         if len(self) == 0:
             return np.zeros((len(self.basis.probes), 0)), np.zeros((len(self.basis.probes), 0))
-        return self._stacked(lambda p: p.probes[p.sector.loaded].T), self._stacked(
-            lambda p: p.surface_products[1]
-        )
+        return self._stacked(lambda p: p.surface_parts[1].T), self._stacked(lambda p: p.surface_products[1])
 
     @cached_property
     def flexibility(self) -> np.ndarray:
@@ -120,38 +126,63 @@ class Statics:
 
 
 def statics(basis: SymmetricBasis, attachments: Sequence[Attachment]) -> Statics:
-    """Static responses to the attachments' loads."""
+    """Static responses to the attachments' loads; those at the same points as lately are not made again."""
     stiffness = block_diag(*[a.stiffness for a in attachments]) if attachments else np.zeros((0, 0))
     mass = block_diag(*[a.mass for a in attachments]) if attachments else np.zeros((0, 0))
     used = _carrying(stiffness, mass)
-    # all problems have the same surface
-    surface = basis.problems[0].sector.surface
-    local = [sp.csr_array(a.points.matrix)[:, surface] for a in attachments]
-    loads = tuple(_loads(problem.sector, attachments, local, used) for problem in basis.problems)
+    if used is None:
+        places = tuple(thing for a in attachments for thing in (a.points, a.rows))
+        known = basis.kept_statics.get(tuple(map(id, places)))
+        if known is not None:
+            return known[1].with_(stiffness, mass)
+        found = Statics(basis, stiffness, mass, _loads(basis, attachments, np.eye(len(stiffness))))
+        # the places are kept too, so that their ids stay theirs
+        basis.kept_statics[tuple(map(id, places))] = (places, found)
+        if len(basis.kept_statics) > KEPT:
+            basis.kept_statics.popitem(last=False)
+        return found
+    loads = _loads(basis, attachments, used)
     return Statics(basis, used.T @ stiffness @ used, used.T @ mass @ used, loads)
 
 
-def _carrying(stiffness: np.ndarray, mass: np.ndarray) -> np.ndarray:
-    """Orthonormal combinations (b, a) of the motions that carry a spring or a mass."""
+def _carrying(stiffness: np.ndarray, mass: np.ndarray) -> np.ndarray | None:
+    """Orthonormal combinations (b, a) of the motions that carry a spring or a mass; None where all do."""
     total = np.zeros_like(mass)
     for part in (stiffness, mass):
         unit = part / max(np.abs(part).max(initial=0.0), np.finfo(float).tiny)
         total += unit @ unit.T
     values, vectors = np.linalg.eigh(total)
-    return np.asarray(vectors[:, values > DEPENDENT * values.max(initial=0.0)])
+    keep = values > DEPENDENT * values.max(initial=0.0)
+    return None if np.all(keep) else np.asarray(vectors[:, keep])
 
 
-def _loads(
-    sector: Sector, attachments: Sequence[Attachment], surface: Sequence[sp.csr_array], used: np.ndarray
-) -> Loads:
+def _motion(basis: SymmetricBasis, a: Attachment) -> np.ndarray:
+    """Displacements (motions, s) of an attachment's motions by the loaded coordinates of all problems, complex."""
+    real, imaginary, order = basis.surface_motion
+    surface = basis.problems[0].sector.surface
+    local = a.points.matrix[:, surface].toarray()
+    total = np.zeros((len(a.rows), len(order)), dtype=complex)
+    places = {(int(k), bool(m)) for k, m in zip(a.points.pitch, a.points.mirrored, strict=True)}
+    for pitch, mirrored in sorted(places):
+        of = np.flatnonzero((a.points.pitch == pitch) & (a.points.mirrored == mirrored))
+        rows = (3 * of[:, None] + np.arange(3)).ravel()
+        sign = np.tile(_MIRROR, len(of))[:, None] if mirrored else 1.0
+        here = a.rows[:, rows] @ (sign * local[rows])
+        used = np.flatnonzero(np.any(here, axis=0))
+        turn = np.exp(2j * np.pi / basis.mesh.slots * (order * pitch % basis.mesh.slots))
+        other = here[:, used] @ imaginary[used]
+        total += (here[:, used] @ real[used] + (-1j if mirrored else 1j) * other) * turn
+    return total
+
+
+def _loads(basis: SymmetricBasis, attachments: Sequence[Attachment], used: np.ndarray) -> tuple[Loads, ...]:
     """Unit loads on the motions; the motion's real part belongs to cosine, its imaginary part to sine shapes."""
-    found = [np.zeros((0, len(sector.loaded)), dtype=complex)]
-    for a, interpolation in zip(attachments, surface, strict=True):
-        local = interpolation @ sector.moved
-        mirrored = np.repeat(a.points.mirrored, 3)[:, None]
-        sign = np.tile(_MIRROR, len(a.points))[:, None]
-        pitch = np.repeat(a.points.pitch, 3)[:, None]
-        turn = np.exp(2j * np.pi * sector.space.order / sector.space.slots * pitch)
-        found.append(a.rows @ (np.where(mirrored, np.conj(local) * sign, local) * turn))
-    rows = used.T @ np.vstack(found)
-    return {sine: np.ascontiguousarray((rows.imag if sine else rows.real).T) for sine in sector.families}
+    empty = np.zeros((0, len(basis.surface_motion[2])), dtype=complex)
+    rows = (used.T @ np.vstack([empty, *(_motion(basis, a) for a in attachments)])).T
+    both = {False: np.ascontiguousarray(rows.real), True: np.ascontiguousarray(rows.imag)}
+    found, first = [], 0
+    for problem in basis.problems:
+        last = first + len(problem.sector.loaded)
+        found.append({sine: both[sine][first:last] for sine in problem.sector.families})
+        first = last
+    return tuple(found)
