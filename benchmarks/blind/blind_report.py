@@ -247,7 +247,8 @@ def _plot_verdicts(axes: Axes, rows: Sequence[Mapping[str, Any]]) -> None:
 
 def _answer(row: Mapping[str, Any]) -> str:
     if row["verdict"] == "named":
-        return "named, right" if row.get("effect_right") and row["group"] != "nothing" else "named, wrong"
+        right = row.get("effect_right") and row["group"] not in ("nothing", "outside")
+        return "named, right" if right else "named, wrong"
     return str(row["verdict"])
 
 
