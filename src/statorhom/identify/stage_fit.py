@@ -112,6 +112,19 @@ def fit_stage(
         raise IdentificationError(
             "the stage has no mode to fit: give a free test modes that are not held out"
         )
+    starts = search(problem, keys, seed=seed, workers=workers, progress=progress)
+    return fit_from(problem, starts, keys.evaluations, refine, rebase, seed=seed, effects=effects)
+
+
+def search(
+    problem: StageProblem,
+    keys: IdentifyKeys,
+    *,
+    seed: int,
+    workers: Workers,
+    progress: Progress | None = None,
+) -> list[np.ndarray]:
+    """Coordinates (d,) that are worth a polish, by chains on the reduced model; see `fit_stage`."""
     coarse = replace(problem, space=search_space(problem.space)).coarse()
     found = find_optima(
         coarse,
@@ -123,9 +136,30 @@ def fit_stage(
         progress=progress,
     )
     hopeful = [o for o in found[:MOST_STARTS] if o.value < found[0].value + HOPELESS]
-    starts = [problem.space.internal(coarse.space.values(o.x)) for o in hopeful]
+    return [problem.space.internal(coarse.space.values(o.x)) for o in hopeful]
+
+
+def fit_from(
+    problem: StageProblem,
+    starts: Sequence[np.ndarray],
+    evaluations: int,
+    refine: Refine,
+    rebase: Rebase | None = None,
+    *,
+    seed: int,
+    effects: Effects | None = None,
+) -> StageFit:
+    """Polish what a search has found, correct for the mesh, and draw intervals.
+
+    Parameters
+    ----------
+    problem : in the full space, without mesh factors.
+    starts : (d,) each, the most hopeful first.
+    evaluations : that the search has spent.
+    refine, rebase, seed, effects : see `fit_stage`.
+    """
     problem, convergence, optima = _sharpen(problem, starts, refine, rebase, effects)
-    return StageFit(problem, posterior(optima, problem.space, seed=seed), convergence, keys.evaluations)
+    return StageFit(problem, posterior(optima, problem.space, seed=seed), convergence, evaluations)
 
 
 def _sharpen(
