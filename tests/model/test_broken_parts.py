@@ -4,7 +4,6 @@ from functools import cache
 
 import numpy as np
 import pytest
-import scipy.sparse as sp
 from scipy.integrate import quad
 from small_stators import MATERIALS, stator_mesh
 from whole_changes import scaled_stiffness, whole_stator
@@ -13,7 +12,7 @@ from whole_supports import WholeSurface
 from statorhom.errors import SolverError
 from statorhom.model.affine import assemble, hooke_coefficients
 from statorhom.model.broken.attachments import footed_lump, lump
-from statorhom.model.broken.basis import PROBES, probes, symmetric_basis
+from statorhom.model.broken.basis import symmetric_basis
 from statorhom.model.broken.cells import Sectors, cells
 from statorhom.model.broken.change import PieceChange
 from statorhom.model.broken.dense_modes import lowest_coupled
@@ -92,17 +91,6 @@ def test_pieces_between_waves_are_those_of_the_whole_stator(seed):
     expected = columns.T @ (scaled_stiffness(w, ("lamination",), HOOKE, weights) @ columns)
     np.testing.assert_allclose(found, expected, atol=1e-9 * np.abs(expected).max())
     assert not np.any(mass)
-
-
-def test_probes_measure_a_residual():
-    generator = np.random.default_rng(3)
-    factor = sp.csr_array(generator.standard_normal((30, 30)))
-    K, M = sp.csr_array(factor @ factor.T), sp.eye_array(30, format="csr")
-    residual = generator.standard_normal(30)
-    exact = residual @ np.linalg.solve(K.toarray() + 0.5 * np.eye(30), residual)
-    means = [np.mean((probes(K, M, 0.5, seed).T @ residual) ** 2) for seed in range(400)]
-    spread = exact * np.sqrt(2 / (PROBES * len(means)))
-    assert abs(np.mean(means) - exact) < 4 * spread
 
 
 def test_large_problems_have_the_same_modes_as_small_ones():

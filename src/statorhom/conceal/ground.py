@@ -7,18 +7,15 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-import scipy.sparse as sp
 
 from statorhom.conceal.truth import TrueStage
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.materials.hooke import Hooke
 from statorhom.mesh import HalfPitchMesh, MeshDensity, graded, mesh_step
 from statorhom.model.affine import AffineModel, Material, Materials, assemble, hooke_coefficients
-from statorhom.model.broken.basis import ProblemBasis, SymmetricBasis, symmetric_basis
+from statorhom.model.broken.basis import SymmetricBasis, symmetric_basis
 from statorhom.model.broken.interface import Contact, contact, split
 from statorhom.model.broken.pieces import Pieces, mass_pieces, stiffness_pieces
-from statorhom.model.broken.sector import Sector
-from statorhom.model.eigen import Solve, factorize
 from statorhom.model.free_modes import FreeProblem, problem_at
 
 # every division of the section that the fit leaves at one cell has two here, graded towards the tooth roots
@@ -60,11 +57,8 @@ class StageGround:
     @cached_property
     def basis(self) -> SymmetricBasis:
         """Symmetric modes."""
-        if self.contact is None:
-            return symmetric_basis(self.model, self.materials, self.highest_hz, margin=MARGIN)
-        joint = self.contact.matrix
-        basis = symmetric_basis(self.model, self.materials, self.highest_hz, margin=MARGIN, contact=joint)
-        return replace(basis, problems=tuple(_forgetful(problem) for problem in basis.problems))
+        joint = None if self.contact is None else self.contact.matrix
+        return symmetric_basis(self.model, self.materials, self.highest_hz, margin=MARGIN, contact=joint)
 
     def pieces(self, region: str, material: Material | None = None) -> Pieces:
         """Stiffness of a region's elements; with a material, what changing to it adds."""
@@ -88,21 +82,6 @@ class StageGround:
             for region, material in self.materials.items()
         }
         return replace(self, materials=changed)
-
-
-class ForgetfulSector(Sector):
-    """A problem that factorizes anew for every solve: two factors for each of a hundred problems are 20 GB."""
-
-    @property
-    def solve(self) -> Solve:
-        """(K + σM)⁻¹."""
-        return factorize(sp.csr_array(self.K + self.shift * self.M))
-
-
-def _forgetful(problem: ProblemBasis) -> ProblemBasis:
-    own = problem.sector
-    sector = ForgetfulSector(own.space, own.K, own.M, own.shift, own.surface)
-    return replace(problem, sector=sector, soft=sector)
 
 
 def truth_mesh(stage: TrueStage) -> MeshDensity:

@@ -76,10 +76,9 @@ def by_frequency(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Featur
         if own is not None:
             for j, slope in zip(acting, own.tolist(), strict=True):
                 columns[j][number] = rates[number] * slope
-    for number, feature in enumerate(base):
-        if feature.kind == "density":
-            for j in acting:
-                columns[j][number] = _density_slope(h, z, j, feature, actions)
+    weighed = [number for number, feature in enumerate(base) if feature.kind == "density"]
+    for j in acting:
+        columns[j][weighed] = _density_slopes(h, z, j, [base[number] for number in weighed], actions)
     return columns
 
 
@@ -221,12 +220,12 @@ def _supported_slope(
     return np.asarray(sum(share * slopes[k] for k, share in shares.items()) / whole)
 
 
-def _density_slope(
-    h: Hypothesis, z: FloatArray, j: int, feature: Feature, actions: Sequence[Action]
-) -> float:
+def _density_slopes(
+    h: Hypothesis, z: FloatArray, j: int, features: Sequence[Feature], actions: Sequence[Action]
+) -> FloatArray:
     constant = h.study.constants.items[j]
     if not constant.name.endswith("mass_kg"):
-        return 0.0
+        return np.zeros(len(features))
     values = h.study.constants.values(z[: h.constants])
     values[constant.name] = constant.value(z[j] + STEP)
-    return float(slopes_of([feature], h.densities(values, actions), STEP)[0])
+    return slopes_of(features, h.densities(values, actions), STEP)

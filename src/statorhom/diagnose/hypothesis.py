@@ -35,11 +35,7 @@ from statorhom.diagnose.levels import (
     level_features,
     slipped,
 )
-from statorhom.diagnose.masses import (
-    LAMINATION_DENSITY,
-    LAMINATION_DENSITY_SD,
-    stage_densities,
-)
+from statorhom.diagnose.masses import KNOWN, stage_densities
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode, predicted
 from statorhom.diagnose.stage_model import StageModel
@@ -107,17 +103,19 @@ class Hypothesis:
         return tuple(found)
 
     def actions(self, z: FloatArray) -> tuple[Action, ...]:
-        """What the effects do."""
+        """What the effects do, and after them those that the study declares."""
         values = self.effect_values(z)
-        return tuple(
+        own = (
             library()[c.effect].action(c, v, self.study.files)
             for c, v in zip(self.candidates, values, strict=True)
         )
+        return (*own, *self.study.effects)
 
     def mark(self, z: FloatArray) -> tuple[tuple[str, tuple[float, ...]], ...]:
         """What the actions depend on."""
         values = self.effect_values(z)
-        return tuple((c.label, tuple(v.values())) for c, v in zip(self.candidates, values, strict=True))
+        own = ((c.label, tuple(v.values())) for c, v in zip(self.candidates, values, strict=True))
+        return (*own, *((f"declared {i}", ()) for i in range(len(self.study.effects))))
 
     def limits(self) -> tuple[FloatArray, FloatArray]:
         """Of the coordinates; angles have none."""
@@ -323,19 +321,26 @@ class Hypothesis:
         return found
 
     def densities(self, values: Mapping[str, float], actions: Sequence[Action]) -> list[Feature]:
-        """What is known of the lamination's density."""
+        """What is known of the densities of the regions that the tested steps add."""
         corrected: dict[str, float] = {}
         dimensions: dict[str, float] = {}
         for action in actions:
             corrected |= dict(action.masses)
             dimensions |= dict(action.dimensions)
-        stage = self.study.stages[0]
-        volumes = self.study.volumes(stage.setup)
-        if dimensions:
-            volumes = step_of(self.study, stage, changed_geometry(self.study, dimensions)).exact_volumes()
         masses = self.study.masses(values, corrected)
-        density = stage_densities(self.study.files, masses, stage.setup.index, volumes)
-        if "lamination" not in density:
-            return []
-        rho = density["lamination"]
-        return [Feature("density", "", None, rho, LAMINATION_DENSITY, LAMINATION_DENSITY_SD)]
+        changed = changed_geometry(self.study, dimensions) if dimensions else None
+        found = []
+        for stage in self.study.stages:
+            known = KNOWN.get(stage.setup.keys.kind)
+            if known is None:
+                continue
+            region, mean, sd = known
+            volumes = (
+                self.study.volumes(stage.setup)
+                if changed is None
+                else step_of(self.study, stage, changed).exact_volumes()
+            )
+            density = stage_densities(self.study.files, masses, stage.setup.index, volumes)
+            if region in density:
+                found.append(Feature("density", "", None, density[region], mean, sd))
+        return found

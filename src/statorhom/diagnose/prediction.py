@@ -80,8 +80,15 @@ def acted_materials(
     for action in actions:
         corrected |= dict(action.masses)
     materials = study.materials(stage, values, study.masses(values, corrected))
+    return with_rules(materials, stage.name, actions, test)
+
+
+def with_rules(
+    materials: Materials, stage: str, actions: Sequence[Action], test: str | None = None
+) -> Materials:
+    """Declared materials as the actions that touch a stage, or a test of it, make them."""
     for action in actions:
-        if action.materials is not None and action.touches(stage.name, test):
+        if action.materials is not None and action.touches(stage, test):
             materials = action.materials(materials)
     return materials
 

@@ -35,8 +35,9 @@ def symmetric_lu(matrix: sp.csr_array) -> SuperLU:
         If the matrix is singular or has entries that are not numbers.
     """
     try:
+        # by columns a symmetric matrix reads as it does by rows
         return splu(
-            sp.csc_matrix(matrix),
+            sp.csc_matrix((matrix.data, matrix.indices, matrix.indptr), shape=matrix.shape, copy=True),
             permc_spec="MMD_AT_PLUS_A",
             diag_pivot_thresh=0.0,
             options={"SymmetricMode": True},

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,10 +10,7 @@ import scipy.sparse as sp
 
 from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
-from statorhom.model.back_ends.choice import best_available
-from statorhom.model.blas_threads import one_blas_thread
-from statorhom.model.eigen import factorize, modes_below
-from statorhom.model.problems import orders_of, profile_of, spaces_of
+from statorhom.model.problems import eigenpairs_of, orders_of, profile_of
 from statorhom.model.radial_profile import node_planes
 from statorhom.model.space import MIRROR, Profile, Space
 from statorhom.model.stator_mode import StatorMode, modes_of_parities, name_modes
@@ -59,7 +55,7 @@ def solve_free(
     highest_hz : upper end of the band.
     orders : harmonics to solve (default: all, 0 … N/2).
     most : lowest modes of each harmonic problem that are enough; None for all of the band.
-    jobs : threads; harmonics are independent, and factorizing one leaves the interpreter to the others.
+    jobs : threads; the modes do not depend on their number.
     """
     return problem_at(model, materials).solve(highest_hz, orders, most, jobs)
 
@@ -90,14 +86,8 @@ class FreeProblem:
         """Modes of the band; see `solve_free`."""
         profile = profile_of(self.mesh)
         wanted = orders_of(self.mesh) if orders is None else orders
-
-        def solved(order: int) -> list[_Solved]:
-            spaces = spaces_of(self.mesh, order)
-            return [self._solve_harmonic(space, profile, highest_hz, most) for space in spaces]
-
-        # the limit holds for all threads: entered by each, one would lift another's
-        with one_blas_thread(), ThreadPoolExecutor(max(1, jobs)) as pool:
-            found = [part for parts in pool.map(solved, wanted) for part in parts]
+        pairs = eigenpairs_of(self.mesh, self.K, self.M, highest_hz, wanted, most, jobs)
+        found = [_solved(space, profile, values, vectors) for space, values, vectors in pairs]
         modes = [mode for i, part in enumerate(found) for mode in self._named(part, i)]
         modes.sort(key=lambda mode: mode.frequency_hz)
         return FreeModes(
@@ -106,17 +96,6 @@ class FreeProblem:
             tuple(part.shape for part in found),
             tuple(part.amplitudes for part in found),
         )
-
-    def _solve_harmonic(
-        self, harmonic: Space, profile: Profile, highest_hz: float, most: int | None
-    ) -> _Solved:
-        # what supernodes are made for: a block's matrices are larger and fuller than a half pitch's
-        back_end = best_available() if harmonic.parity == MIRROR else factorize
-        values, vectors = modes_below(
-            harmonic.project(self.K), harmonic.project(self.M), highest_hz, most=most, back_end=back_end
-        )
-        shape = harmonic.expand(vectors) / np.sqrt(harmonic.copies)
-        return _Solved(harmonic, values, shape, profile.orders(harmonic, shape))
 
     def _named(self, part: _Solved, number: int) -> list[StatorMode]:
         count = len(part.values)
@@ -149,6 +128,11 @@ class _Solved:
     values: np.ndarray
     shape: np.ndarray
     amplitudes: np.ndarray
+
+
+def _solved(harmonic: Space, profile: Profile, values: np.ndarray, vectors: np.ndarray) -> _Solved:
+    shape = harmonic.expand(vectors) / np.sqrt(harmonic.copies)
+    return _Solved(harmonic, values, shape, profile.orders(harmonic, shape))
 
 
 def problem_at(model: AffineModel[PartMesh], materials: Materials) -> FreeProblem:

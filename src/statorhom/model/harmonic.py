@@ -12,18 +12,17 @@ h = 0 and h = N/2 the real and the imaginary part decouple into the "even" and t
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.spatial import cKDTree
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.model.pitch_parts import Axial, PitchPart, pitch_parts
 
 Parity = Literal["pair", "even", "odd"]
-Axial = Literal["even", "odd"]
-TOLERANCE = 1e-9  # m: how far a node's mirror image may lie from another node
 
 
 @dataclass(frozen=True)
@@ -77,17 +76,17 @@ def harmonic_spaces(mesh: HalfPitchMesh, order: int) -> tuple[Harmonic, ...]:
     One for 0 < h < N/2 and two for h = 0 and h = N/2; twice as many, of half the size, where the
     stator is its own mirror image about the middle of the core.
     """
-    spaces = []
-    for axial, nodes, copy in _axial_parts(mesh):
-        real, imaginary = _constrained(mesh, nodes, order)
-        real, imaginary = sp.csr_array(copy @ real), sp.csr_array(copy @ imaginary)
-        if 0 < 2 * order < mesh.slots:
-            spaces.append(_used("pair", axial, mesh, order, real, imaginary))
-            continue
-        zero = sp.csr_array(real.shape)
-        spaces.append(_used("even", axial, mesh, order, real, zero))
-        spaces.append(_used("odd", axial, mesh, order, zero, imaginary))
-    return tuple(spaces)
+    return spaces_of(pitch_parts(mesh), order)
+
+
+def spaces_of(parts: Iterable[PitchPart], order: int) -> tuple[Harmonic, ...]:
+    """The same, of the parts of a mesh, for those who ask for many harmonics."""
+    return tuple(_space(part, order, parity) for part in parts for parity in parities(order, part.slots))
+
+
+def parities(order: int, slots: int) -> tuple[Parity, ...]:
+    """The problems that a harmonic of one part falls into."""
+    return ("pair",) if 0 < 2 * order < slots else ("even", "odd")
 
 
 def all_orders(slots: int) -> range:
@@ -95,115 +94,54 @@ def all_orders(slots: int) -> range:
     return range(slots // 2 + 1)
 
 
-def _axial_parts(mesh: HalfPitchMesh) -> list[tuple[Axial | None, np.ndarray, sp.csr_array]]:
-    """Nodes that carry coordinates, and the matrix that copies them to all nodes, per axial parity."""
-    image = _mirror_images(mesh)
-    n = len(mesh.nodes)
-    if image is None:
-        return [(None, np.arange(n), sp.eye_array(3 * n, format="csr"))]
-    lower = np.flatnonzero(mesh.nodes[:, 2] <= mesh.length / 2 + TOLERANCE)
-    place = np.full(n, -1)
-    place[lower] = np.arange(len(lower))
-    upper = place < 0
-    source = np.where(upper, place[image], place)
-    middle = image == np.arange(n)
-    signs: tuple[tuple[Axial, tuple[float, float, float]], ...] = (
-        ("even", (1.0, 1.0, -1.0)),
-        ("odd", (-1.0, -1.0, 1.0)),
-    )
-    return [
-        (axial, lower, _copies(source, upper, middle, np.array(sign), len(lower))) for axial, sign in signs
-    ]
-
-
-def _copies(
-    source: np.ndarray, upper: np.ndarray, middle: np.ndarray, signs: np.ndarray, count: int
-) -> sp.csr_array:
-    """Displacement of every node from those of the lower half; `signs` is what mirroring does to it."""
-    values = np.where(upper[:, None], signs, 1.0)
-    # what would have to be its own opposite on the middle plane vanishes
-    values = np.where(middle[:, None] & (signs < 0), 0.0, values)
-    n = len(source)
-    columns = 3 * source[:, None] + np.arange(3)
-    matrix = sp.csr_array((values.ravel(), (np.arange(3 * n), columns.ravel())), shape=(3 * n, 3 * count))
-    matrix.eliminate_zeros()
-    return matrix
-
-
-def _mirror_images(mesh: HalfPitchMesh) -> np.ndarray | None:
-    """Node at the mirror image of each node about the core's middle, None where the ends differ."""
-    # nodes of two parts may lie on each other
-    part = np.full(len(mesh.nodes), len(mesh.regions))
-    np.minimum.at(part, mesh.elements, mesh.region[:, None])
-    tagged = np.column_stack([mesh.nodes, part])
-    distance, image = cKDTree(tagged).query(tagged * [1.0, 1.0, -1.0, 1.0] + [0.0, 0.0, mesh.length, 0.0])
-    if distance.max() > TOLERANCE or not _same_regions(mesh, image):
-        return None
-    return np.asarray(image)
-
-
-def _same_regions(mesh: HalfPitchMesh, image: np.ndarray) -> bool:
-    def signature(elements: np.ndarray) -> np.ndarray:
-        rows = np.column_stack([np.sort(elements, axis=1), mesh.region])
-        return rows[np.lexsort(rows.T)]
-
-    return bool(np.array_equal(signature(mesh.elements), signature(image[mesh.elements])))
-
-
-def _constrained(mesh: HalfPitchMesh, nodes: np.ndarray, order: int) -> tuple[sp.csr_array, sp.csr_array]:
-    """Real and imaginary part of û at `nodes` from the real coordinates that the mirror symmetry leaves."""
-    n = len(nodes)
-    on_tooth, on_slot = np.isin(nodes, mesh.tooth_plane), np.isin(nodes, mesh.slot_plane)
-    inner = np.flatnonzero(~np.repeat(on_tooth | on_slot, 3))
-    m = len(inner)
-    tooth, tooth_phase = _plane_dofs(np.flatnonzero(on_tooth), 0.0)
-    slot, slot_phase = _plane_dofs(np.flatnonzero(on_slot), np.pi * order / mesh.slots)
-    rows = np.concatenate([inner, tooth, slot])
-    shape = (3 * n, 2 * m + len(tooth) + len(slot))
-    # inner nodes have an imaginary part of their own; on the planes it follows from the phase
-    planes = 2 * m + np.arange(len(tooth) + len(slot))
-    phase = np.concatenate([tooth_phase, slot_phase])
-    real = _sparse(np.r_[np.ones(m), phase.real], rows, np.r_[np.arange(m), planes], shape)
-    imaginary = _sparse(np.r_[np.ones(m), phase.imag], rows, np.r_[m + np.arange(m), planes], shape)
-    return real, imaginary
-
-
-def _sparse(
-    values: np.ndarray, rows: np.ndarray, columns: np.ndarray, shape: tuple[int, int]
-) -> sp.csr_array:
-    matrix = sp.csr_array((values, (rows, columns)), shape=shape)
-    matrix.eliminate_zeros()
-    return matrix
-
-
-def _plane_dofs(nodes: np.ndarray, phase: float) -> tuple[np.ndarray, np.ndarray]:
-    turn = np.exp(1j * phase)
+def slot_phase(order: int, slots: int) -> complex:
+    """Turn of the phase on the slot's plane."""
+    turn = np.exp(1j * np.pi * order / slots)
     # exact zeros keep the even and the odd problem apart
-    turn = complex(round(turn.real, 15), round(turn.imag, 15))
-    dofs = (3 * nodes[:, None] + np.arange(3)).ravel()
-    return dofs, np.tile([turn, 1j * turn, turn], len(nodes))
+    return complex(round(turn.real, 15), round(turn.imag, 15))
 
 
-def _used(
-    parity: Parity,
-    axial: Axial | None,
-    mesh: HalfPitchMesh,
-    order: int,
-    real: sp.csr_array,
-    imaginary: sp.csr_array,
-) -> Harmonic:
-    """Leave out coordinates that move nothing."""
-    used = np.flatnonzero((abs(real) + abs(imaginary)).sum(axis=0))
-    real, imaginary = sp.csr_array(real[:, used]), sp.csr_array(imaginary[:, used])
-    return Harmonic(order, mesh.slots, parity, axial, real, imaginary)
+def plane_phases(dofs: np.ndarray, turn: complex) -> np.ndarray:
+    """û of displacements on a plane of symmetry per real coordinate."""
+    return np.asarray(np.array([turn, 1j * turn, turn])[dofs % 3])
+
+
+def _space(part: PitchPart, order: int, parity: Parity) -> Harmonic:
+    # inner nodes have an imaginary part of their own; on the planes it follows from the phase
+    tooth = plane_phases(part.tooth, 1.0)
+    slot = plane_phases(part.slot, slot_phase(order, part.slots))
+    ones, zeros = np.ones(len(part.inner)), np.zeros(len(part.inner))
+    dofs = np.r_[part.inner, part.inner, part.tooth, part.slot]
+    real = np.r_[ones, zeros, tooth.real, slot.real]
+    imaginary = np.r_[zeros, ones, tooth.imag, slot.imag]
+    # the even problem has the real part alone, the odd one the imaginary part
+    if parity != "pair":
+        used = (real if parity == "even" else imaginary) != 0
+        dofs, real, imaginary = dofs[used], real[used], imaginary[used]
+        (imaginary if parity == "even" else real)[:] = 0.0
+    matrices = (_carried(part, dofs, values) for values in (real, imaginary))
+    return Harmonic(order, part.slots, parity, part.axial, *matrices)
+
+
+def _carried(part: PitchPart, dofs: np.ndarray, values: np.ndarray) -> sp.csr_array:
+    """All displacements by coordinates that move the displacements `dofs` by `values`."""
+    moving = np.flatnonzero(values)
+    value, column = np.zeros(len(part.source)), np.zeros(len(part.source), dtype=np.int32)
+    value[dofs[moving]], column[dofs[moving]] = values[moving], moving
+    value = part.sign * value[part.source]
+    kept = value != 0
+    begin = np.concatenate([[0], np.cumsum(kept, dtype=np.int32)], dtype=np.int32)
+    shape = (len(value), len(dofs))
+    return sp.csr_array((value[kept], column[part.source[kept]], begin), shape=shape)
 
 
 def problems_of(mesh: HalfPitchMesh, names: set[tuple[int, int | None]]) -> tuple[Harmonic, ...]:
     """The radial problems that hold the modes of the given names (r, n); n None: of either axial parity."""
     found = []
+    parts = pitch_parts(mesh)
     for order in sorted({r for r, _ in names}):
         wanted = {None if n is None else n % 2 for r, n in names if r == order}
-        for space in harmonic_spaces(mesh, order):
+        for space in spaces_of(parts, order):
             parity = {"even": 0, "odd": 1, None: None}[space.axial]
             if space.parity != "odd" and (parity is None or None in wanted or parity in wanted):
                 found.append(space)

@@ -9,31 +9,30 @@ symmetric stator that is nowhere stiffer than any broken one (`statorhom.model.b
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Callable, Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
-from threadpoolctl import threadpool_limits
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.broken.grams import GramCache
 from statorhom.model.broken.pieces import Pieces
 from statorhom.model.broken.sector import Sector, surface_dofs
 from statorhom.model.broken.waves import Waves
-from statorhom.model.eigen import SHIFT, modes_below, symmetric_lu
-from statorhom.model.harmonic import all_orders, harmonic_spaces
+from statorhom.model.cyclic.half_pitch import half_pitch
+from statorhom.model.cyclic.modes import modes_of
+from statorhom.model.cyclic.problem import CyclicProblem, Shifted
+from statorhom.model.eigen import SHIFT
+from statorhom.model.harmonic import all_orders, spaces_of
+from statorhom.model.pitch_parts import pitch_parts
 
 MARGIN = 2.0  # modes reach this much higher than the band
-FIRST_GUESS = 10  # modes of a harmonic's first problem
 PROBES = 8  # per problem
-
-Mapper = Callable[
-    [Callable[[int], "tuple[ProblemBasis, ...]"], Iterable[int]], Iterable["tuple[ProblemBasis, ...]"]
-]
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +45,7 @@ class ProblemBasis:
     soft : the same problem of the softest symmetric stator.
     values : (w,) Ritz values of the vectors (rad²/s²).
     vectors : (m, w) coordinates of unit modal mass.
+    elastic, inertial : (m, w) K and M times the vectors.
     probes : (m, t) random vectors with covariance (K' + σM)⁻¹.
     """
 
@@ -53,11 +53,20 @@ class ProblemBasis:
     soft: Sector
     values: np.ndarray
     vectors: np.ndarray
+    elastic: np.ndarray
+    inertial: np.ndarray
     probes: np.ndarray
 
     def __post_init__(self) -> None:
-        for array in (self.values, self.vectors, self.probes):
+        for array in (self.values, self.vectors, self.elastic, self.inertial, self.probes):
             array.setflags(write=False)
+
+    def lowest(self, count: int) -> ProblemBasis:
+        """The first vectors only."""
+        arrays = {
+            name: getattr(self, name)[..., :count] for name in ("values", "vectors", "elastic", "inertial")
+        }
+        return replace(self, **arrays)
 
     @cached_property
     def surface_products(self) -> tuple[np.ndarray, np.ndarray]:
@@ -126,8 +135,8 @@ class SymmetricBasis:
     def probed(self) -> tuple[np.ndarray, np.ndarray]:
         """ζᵀKW and ζᵀMW between all coordinates of the probes and of the basis."""
         found = []
-        for name in ("K", "M"):
-            blocks = [p.probes.T @ (getattr(p.sector, name) @ p.vectors) for p in self.problems]
+        for images in ([p.elastic for p in self.problems], [p.inertial for p in self.problems]):
+            blocks = [p.probes.T @ image for p, image in zip(self.problems, images, strict=True)]
             columns = sp.block_diag(blocks, format="csr").toarray()
             cosine = columns[np.ix_(self.probes.cosine, self.waves.cosine)]
             sine = columns[np.ix_(self.probes.sine, self.waves.sine)]
@@ -153,7 +162,7 @@ class SymmetricBasis:
         problems = []
         for p in self.problems:
             count = int(np.count_nonzero(p.values <= top))
-            problems.append(replace(p, values=p.values[:count], vectors=p.vectors[:, :count]))
+            problems.append(p.lowest(count))
         return replace(self, problems=tuple(problems), cut_hz=min(cut_hz, self.cut_hz), grams=GramCache())
 
     def _waves(self, vectors: list[np.ndarray]) -> Waves:
@@ -171,43 +180,6 @@ class SymmetricBasis:
         return Waves(np.hstack(shapes), order, chosen[False], chosen[True], self.mesh.slots)
 
 
-@dataclass(frozen=True, eq=False)
-class BasisTask:
-    """What solves the problems of a harmonic; can be sent to other processes.
-
-    Parameters
-    ----------
-    mesh : of the half pitch.
-    K, M : of the half pitch.
-    cut_hz : highest frequency of the modes.
-    shift : σ.
-    surface : displacements on the outer surface.
-    certified : with probes.
-    """
-
-    mesh: HalfPitchMesh
-    K: sp.csr_array
-    M: sp.csr_array
-    cut_hz: float
-    shift: float
-    surface: np.ndarray
-    certified: bool = True
-
-    def __call__(self, order: int) -> tuple[ProblemBasis, ...]:
-        """All problems of a harmonic."""
-        found: list[ProblemBasis] = []
-        with threadpool_limits(limits=1, user_api="blas"):
-            for space in harmonic_spaces(self.mesh, order):
-                K, M = (sp.csr_array(space.copies * space.project(m)) for m in (self.K, self.M))
-                # the problems of one harmonic have about as many modes
-                expected = len(found[-1].values) + 2 if found else FIRST_GUESS
-                values, vectors = modes_below(K, M, self.cut_hz, expected)
-                sector = Sector(space, K, M, self.shift, self.surface)
-                drawn = probes(K, M, self.shift, order) if self.certified else np.empty((space.size, 0))
-                found.append(ProblemBasis(sector, sector, values, vectors, drawn))
-        return tuple(found)
-
-
 def symmetric_basis(
     model: AffineModel,
     materials: Materials,
@@ -216,7 +188,7 @@ def symmetric_basis(
     margin: float = MARGIN,
     contact: sp.csr_array | None = None,
     certified: bool = True,
-    mapper: Mapper = map,
+    jobs: int = 1,
 ) -> SymmetricBasis:
     """Modes of the symmetric stator in a band.
 
@@ -228,7 +200,7 @@ def symmetric_basis(
     margin : the modes reach up to `margin` times `highest_hz`.
     contact : further stiffness of the half pitch (N/m), the same in all copies.
     certified : False leaves out what tells the errors of a solution; it cannot be enriched then.
-    mapper : `map`, or the parallel map of an executor; called with a picklable function and the orders.
+    jobs : threads.
 
     Raises
     ------
@@ -239,15 +211,32 @@ def symmetric_basis(
     if contact is not None:
         K = sp.csr_array(K + contact)
     shift = SHIFT * (2 * np.pi * highest_hz) ** 2
-    task = BasisTask(model.mesh, K, M, margin * highest_hz, shift, surface_dofs(model.mesh), certified)
-    problems = [p for group in mapper(task, all_orders(model.mesh.slots)) for p in group]
-    return SymmetricBasis(model.mesh, tuple(problems), highest_hz, margin * highest_hz, shift)
+    parts = pitch_parts(model.mesh)
+    shifted = {part.axial: Shifted(half_pitch(part, K, M), shift) for part in parts}
+    spaces = [s for order in all_orders(model.mesh.slots) for s in spaces_of(parts, order)]
+    surface = surface_dofs(model.mesh)
+    sectors = [Sector(CyclicProblem(space, shifted[space.axial]), surface) for space in spaces]
+    problems = solved_problems(sectors, margin * highest_hz, certified=certified, jobs=jobs)
+    return SymmetricBasis(model.mesh, problems, highest_hz, margin * highest_hz, shift)
 
 
-def probes(K: sp.csr_array, M: sp.csr_array, shift: float, seed: int) -> np.ndarray:
-    """Random vectors (m, t) with covariance (K + σM)⁻¹: responses to loads with covariance K + σM."""
-    lu = symmetric_lu(sp.csr_array(K + shift * M))
-    weights = np.random.default_rng(seed).standard_normal((K.shape[0], PROBES))
-    # P A Pᵀ = L D Lᵀ
-    loads = lu.L @ (np.sqrt(lu.U.diagonal())[:, None] * weights)
-    return np.asarray(lu.solve(np.ascontiguousarray(loads[lu.perm_r])))
+def solved_problems(
+    sectors: Sequence[Sector], highest_hz: float, *, certified: bool = True, jobs: int = 1
+) -> tuple[ProblemBasis, ...]:
+    """All modes of problems up to a frequency, and their probes where they are to be certified."""
+    pitches = {id(s.problem.shifted): s.problem.shifted.pitch for s in sectors}
+    pairs = modes_of(tuple(pitches.values()), [s.space for s in sectors], highest_hz, jobs=jobs)
+    found = []
+    with one_blas_thread():
+        for sector, (values, vectors) in zip(sectors, pairs, strict=True):
+            vectors = vectors / np.sqrt(sector.space.copies)
+            images = sector.K @ vectors, sector.M @ vectors
+            drawn = probes(sector.problem) if certified else np.empty((sector.space.size, 0))
+            found.append(ProblemBasis(sector, sector, values, vectors, *images, drawn))
+    return tuple(found)
+
+
+def probes(problem: CyclicProblem) -> np.ndarray:
+    """Random vectors (m, t) with covariance (K + σM)⁻¹."""
+    weights = np.random.default_rng(problem.space.order).standard_normal((problem.space.size, PROBES))
+    return problem.sampled(weights)

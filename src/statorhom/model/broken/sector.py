@@ -9,7 +9,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
-from statorhom.model.eigen import Solve, factorize
+from statorhom.model.cyclic.problem import CyclicProblem, ProblemMatrix
+from statorhom.model.eigen import Solve
 from statorhom.model.harmonic import Harmonic
 from statorhom.model.surface import TOLERANCE, surface_radius
 
@@ -20,27 +21,42 @@ class Sector:
 
     Parameters
     ----------
-    space : the problem.
-    K, M : of the problem times its copies, so that yᵀMy is the whole stator's.
-    shift : σ of the static responses (rad²/s²).
+    problem : of one harmonic.
     surface : displacements of the half pitch that lie on the outer surface, ascending.
     """
 
-    space: Harmonic
-    K: sp.csr_array
-    M: sp.csr_array
-    shift: float
+    problem: CyclicProblem
     surface: np.ndarray
+
+    @property
+    def space(self) -> Harmonic:
+        """Its coordinates."""
+        return self.problem.space
+
+    @property
+    def K(self) -> ProblemMatrix:
+        """Stiffness, times the copies, so that yᵀKy is the whole stator's."""
+        return self.problem.K
+
+    @property
+    def M(self) -> ProblemMatrix:
+        """Mass."""
+        return self.problem.M
+
+    @property
+    def shift(self) -> float:
+        """σ of the static responses (rad²/s²)."""
+        return self.problem.shifted.shift
 
     @property
     def families(self) -> tuple[bool, ...]:
         """The shapes of a column: False for the cosine, True for the sine family."""
         return {"pair": (False, True), "even": (False,), "odd": (True,)}[self.space.parity]
 
-    @cached_property
+    @property
     def solve(self) -> Solve:
         """(K + σM)⁻¹."""
-        return factorize(sp.csr_array(self.K + self.shift * self.M))
+        return self.problem.solve
 
     @cached_property
     def trace(self) -> sp.csr_array:

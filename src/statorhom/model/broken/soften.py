@@ -11,13 +11,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-import scipy.sparse as sp
 
-from statorhom.model.broken.basis import ProblemBasis, SymmetricBasis, probes
+from statorhom.model.broken.basis import ProblemBasis, SymmetricBasis, solved_problems
 from statorhom.model.broken.change import PieceChange
 from statorhom.model.broken.enrich import extended
 from statorhom.model.broken.pieces import Pieces
-from statorhom.model.eigen import modes_below
+from statorhom.model.cyclic.problem import CyclicProblem, Shifted
 
 SLIGHT = 0.3  # a piece that keeps more than 1 - this of the stiffness it has in the basis needs no new probes
 REACH = 1.5  # the softest stator's modes that are added reach this much higher than the band
@@ -38,15 +37,19 @@ def softened(basis: SymmetricBasis, changes: Sequence[PieceChange]) -> Symmetric
 
 def _with(basis: SymmetricBasis, pieces: Pieces, known: np.ndarray, least: np.ndarray) -> SymmetricBasis:
     less = pieces.matrix(least - known)
-    problems = tuple(_problem(basis, problem, less) for problem in basis.problems)
+    parts = {p.soft.space.axial: p.soft.problem.shifted for p in basis.problems}
+    softer = {axial: Shifted(own.pitch.stiffened(less), own.shift) for axial, own in parts.items()}
+    sectors = [
+        replace(p.soft, problem=CyclicProblem(p.soft.space, softer[p.soft.space.axial]))
+        for p in basis.problems
+    ]
+    solved = solved_problems(sectors, REACH * basis.highest_hz)
+    problems = tuple(_joined(basis, *pair) for pair in zip(basis.problems, solved, strict=True))
     others = tuple((p, w) for p, w in basis.softest if p is not pieces)
     return replace(basis, problems=problems, softest=(*others, (pieces, least)), grams=type(basis.grams)())
 
 
-def _problem(basis: SymmetricBasis, problem: ProblemBasis, less: sp.csr_array) -> ProblemBasis:
-    space, M = problem.sector.space, problem.sector.M
-    soft = sp.csr_array(problem.soft.K + space.copies * space.project(less))
-    values, vectors = modes_below(soft, M, REACH * basis.highest_hz, len(problem.values) + 2)
-    vectors = vectors / np.sqrt(values + basis.shift)
-    drawn = probes(soft, M, basis.shift, space.order)
-    return replace(extended(problem, vectors, PART), soft=replace(problem.soft, K=soft), probes=drawn)
+def _joined(basis: SymmetricBasis, problem: ProblemBasis, soft: ProblemBasis) -> ProblemBasis:
+    """A problem with the modes and the probes of its softest form."""
+    vectors = soft.vectors / np.sqrt(np.maximum(soft.values, 0.0) + basis.shift)
+    return replace(extended(problem, vectors, PART), soft=soft.sector, probes=soft.probes)
