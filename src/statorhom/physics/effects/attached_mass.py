@@ -25,7 +25,7 @@ LARGEST = 0.2  # of the stage's mass
 class AttachedMass(Effect):
     name = "attached_mass"
     summary = "a lump on the back of the core is not in the model"
-    citation = "Fox (1990), J. Sound Vib. 142, 227; Soedel (2004), Vibrations of Shells and Plates, ch. 13"
+    citation = "Fox (1990), J. Sound Vib. 142, 227; Soedel (2004), Vibrations of Shells and Plates"
     confused_with = (
         Confusion(
             "local_stiffness", "the antinode of the lower mode lies at a mass, of the upper at a stiffness"
