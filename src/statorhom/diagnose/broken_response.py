@@ -9,18 +9,22 @@ from statorhom.model.broken.change import Change
 from statorhom.model.broken.named_response import Response, named_response
 from statorhom.model.broken.solve import solve_broken
 from statorhom.model.convergence import ModeKey
+from statorhom.physics.action import Training
 
 __all__ = ["Response", "responses"]
 
 
-def responses(stage: StageModel, changes: Sequence[Change]) -> dict[ModeKey, Response]:
-    """Response of every named mode that can still be told.
+def responses(
+    stage: StageModel, changes: Sequence[Change], trainings: Sequence[Training] = ()
+) -> dict[ModeKey, Response]:
+    """Response of every named mode that can still be told; `trainings` tell what the basis has to hold.
 
     Raises
     ------
     SolverError
         If the changes leave a mass or stiffness that is not definite.
     """
-    modes = solve_broken(stage.broken, changes, tolerance=None)
-    found = {key: named_response(modes, place) for key, place in stage.columns.items()}
+    trained = stage.trained(trainings)
+    modes = solve_broken(trained.basis, changes, tolerance=None)
+    found = {key: named_response(modes, place) for key, place in trained.columns.items()}
     return {key: response for key, response in found.items() if response is not None}

@@ -148,7 +148,8 @@ def broken_responses(
     known = stage.kept_responses
     if mark is None or mark not in known:
         changes = [c for a in actions if a.changes for c in a.changes(stage.model.mesh, stage.reference)]
-        found = responses(stage, changes) if changes else {}
+        trainings = [a.training for a in actions if a.training is not None]
+        found = responses(stage, changes, trainings) if changes else {}
         if mark is None:
             return found
         while len(known) >= KEPT:

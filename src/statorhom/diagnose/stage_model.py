@@ -12,6 +12,8 @@ import numpy as np
 from statorhom.diagnose.joint_basis import JointBasis, joint_basis
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.ring_basis import RingBasis, RingModes, ring_basis
+from statorhom.diagnose.supported_slopes import HeldShapes
+from statorhom.diagnose.trained_basis import TrainedBasis, trained_basis
 from statorhom.geometry.stator import StepGeometry
 from statorhom.identify.model_error import ModelError
 from statorhom.identify.stage_setup import StageSetup
@@ -19,11 +21,12 @@ from statorhom.mesh.density import MeshDensity
 from statorhom.mesh.extrude import mesh_step
 from statorhom.model.affine import AffineModel, Materials, assemble
 from statorhom.model.broken.basis import SymmetricBasis, symmetric_basis
-from statorhom.model.broken.named_response import Columns, columns_of
+from statorhom.model.broken.named_response import Columns
 from statorhom.model.convergence import ModeKey, converge, mode_keys
 from statorhom.model.free_modes import FreeModes, problem_at
 from statorhom.model.radial_profile import radial_profile
 from statorhom.model.stator_mode import StatorMode
+from statorhom.physics.action import Training
 
 BAND = 1.12  # predictions reach this much higher than the highest measured mode
 BROKEN_MARGIN = 1.25
@@ -55,6 +58,8 @@ class StageModel:
     kept_responses: dict[Hashable, Any] = field(default_factory=dict, repr=False)
     _slopes: dict[int, dict[ModeKey, np.ndarray]] = field(default_factory=dict, repr=False)
     _joints: dict[tuple[tuple[str, ...], bool], JointBasis] = field(default_factory=dict, repr=False)
+    _trained: dict[tuple[str, ...], TrainedBasis] = field(default_factory=dict, repr=False)
+    held_shapes: dict[str, HeldShapes] = field(default_factory=dict, repr=False)
 
     @property
     def name(self) -> str:
@@ -108,14 +113,24 @@ class StageModel:
         """Modes at the reference by name."""
         return mode_keys(self.solve(self.reference).modes)
 
-    @cached_property
+    @property
     def columns(self) -> Mapping[ModeKey, Columns]:
         """Where the named modes of the reference stand in the broken basis."""
-        found = {
-            key: columns_of(self.broken, self.ring.problems[m.problem].space, m.frequency_hz)
-            for key, m in self.reference_keys.items()
-        }
-        return {key: place for key, place in found.items() if place is not None}
+        return self.trained(()).columns
+
+    def trained(self, trainings: Sequence[Training]) -> TrainedBasis:
+        """The broken basis with what some changes need."""
+        mark = tuple(sorted(t.key for t in trainings))
+        if mark not in self._trained:
+            named = {
+                key: (self.ring.problems[m.problem].space, m.frequency_hz)
+                for key, m in self.reference_keys.items()
+            }
+            found = trained_basis(self.broken, named)
+            for one in sorted(trainings, key=lambda t: t.key):
+                found = found.trained(one.examples(self.model.mesh, self.reference), named)
+            self._trained[mark] = found
+        return self._trained[mark]
 
     @cached_property
     def amplitudes(self) -> Mapping[ModeKey, tuple[np.ndarray, np.ndarray]]:
@@ -180,5 +195,7 @@ def with_reference(stage: StageModel, materials: Materials) -> StageModel:
         _last={},
         _slopes={},
         _joints={},
+        _trained={},
+        held_shapes={},
         kept_responses={},
     )

@@ -175,13 +175,11 @@ def _solved(
 
 def _shapes(stage: StageModel, test: MeasuredTest, keys: SupportKeys) -> HeldShapes:
     """Shapes on springs of all stiffnesses at the places of a support."""
-    place = ("held shapes", test.name)
-    if place not in stage.kept_responses:
+    if test.name not in stage.held_shapes:
         springs = [_held_by(stage, _stiff(keys, *pair)) for pair in TRAININGS]
         solved = [solve_broken(stage.broken, [s], tolerance=None) for s in springs]
-        _keep(stage, place, held_shapes(stage.model, solved))
-    known: HeldShapes = stage.kept_responses[place]
-    return known
+        stage.held_shapes[test.name] = held_shapes(stage.model, solved)
+    return stage.held_shapes[test.name]
 
 
 def _held_by(stage: StageModel, keys: SupportKeys) -> Attachment:

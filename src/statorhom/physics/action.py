@@ -13,6 +13,7 @@ from statorhom.study.supports import SupportKeys
 
 MaterialRule = Callable[[Materials], Materials]
 ChangeRule = Callable[[HalfPitchMesh, Materials], tuple[Change, ...]]
+TrainingRule = Callable[[HalfPitchMesh, Materials], tuple[Change, ...]]
 
 
 @dataclass(frozen=True)
@@ -55,6 +56,20 @@ class Friction:
     exponent: float = 0.0
 
 
+@dataclass(frozen=True)
+class Training:
+    """Examples of changes whose local fields the symmetric stator's modes do not show.
+
+    Parameters
+    ----------
+    key : tells it from others.
+    examples : from mesh and materials to changes, each an example of its own: places within half a slot pitch.
+    """
+
+    key: str
+    examples: TrainingRule = field(compare=False)
+
+
 @dataclass(frozen=True, eq=False)
 class Action:
     """What is different from the declared model; what stays empty is as declared.
@@ -65,6 +80,7 @@ class Action:
     dimensions : "section.key" of the geometry file → true value in the key's unit.
     materials : from the declared materials of a stage to the true ones.
     changes : from mesh and materials to what breaks the symmetry or varies along the axis.
+    training : what a basis has to hold for these changes beside modes.
     joint : a contact in the place of a bond.
     friction : a contact that slips.
     supports : name of a support → how it really holds.
@@ -80,6 +96,7 @@ class Action:
     dimensions: Mapping[str, float] = field(default_factory=dict)
     materials: MaterialRule | None = None
     changes: ChangeRule | None = None
+    training: Training | None = None
     joint: Joint | None = None
     friction: Friction | None = None
     supports: Mapping[str, SupportKeys] = field(default_factory=dict)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
+
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Materials
 from statorhom.model.broken.change import Change
 from statorhom.model.broken.variations import strip
-from statorhom.physics.action import Action
+from statorhom.physics.action import Action, Training
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.effect import Confusion, Effect
 from statorhom.physics.parameter import EffectParameter, angle
@@ -17,6 +19,7 @@ from statorhom.study.study import StudyFiles
 
 WIDTH_RAD = 0.1745  # 10°
 DEPTH_SHARE = 0.5  # of the yoke
+TRAINED = 0.6  # strength of the examples: their fields are those of other strengths too
 RATIO = EffectParameter("stiffness_ratio", 0.3, 2.5, 0.02, 12.0, "log", (0.6, 1.6), 1.0)
 
 
@@ -44,7 +47,14 @@ class LocalStiffness(Effect):
             ratio, place = values["stiffness_ratio"], values["angle_rad"]
             return (strip(mesh, core, place, width=WIDTH_RAD, depth=depth, ratio=ratio),)
 
-        return Action(changes=changes)
+        def examples(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
+            core = region_pieces(mesh, "lamination", materials["lamination"])
+            places = np.array([0.0, 0.5, 1.0]) * np.pi / mesh.slots
+            return tuple(
+                strip(mesh, core, place, width=WIDTH_RAD, depth=depth, ratio=TRAINED) for place in places
+            )
+
+        return Action(changes=changes, training=Training(self.name, examples))
 
 
 EFFECT = LocalStiffness()

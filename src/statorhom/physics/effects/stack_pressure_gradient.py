@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Materials
 from statorhom.model.assembly import HOOKE_ENTRIES
 from statorhom.model.broken.change import Change
 from statorhom.model.broken.variations import gradient
-from statorhom.physics.action import Action
+from statorhom.physics.action import Action, Training
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.effect import Confusion, Effect
 from statorhom.physics.parameter import EffectParameter
@@ -17,6 +18,7 @@ from statorhom.physics.pieces import region_pieces
 from statorhom.study.study import StudyFiles
 
 RATIO = EffectParameter("G_rz_end_ratio", 0.15, 3.0, 0.02, 20.0, "log", (0.5, 1.8), 1.0)
+TRAINED = 0.4  # strength of the example: its fields are those of other strengths too
 # entries that the contact between sheets carries: normal along z, and the two transverse shears
 CONTACT = ((2, 2), (3, 3), (4, 4))
 
@@ -35,16 +37,18 @@ class StackPressureGradient(Effect):
         return tuple(Candidate(self.name, name, (RATIO,), "lamination") for name in stages[:1])
 
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
-        ratio = values["G_rz_end_ratio"]
         length = files.geometry.core.length_mm / 1e3
 
-        def changes(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
+        def varied(mesh: HalfPitchMesh, materials: Materials, ratio: float) -> tuple[Change, ...]:
             used = tuple(entry in CONTACT for entry in HOOKE_ENTRIES)
             pieces = region_pieces(mesh, "lamination", materials["lamination"], used)
             slope = (ratio - 1.0) / (ratio + 1.0)
             return (gradient(mesh, pieces, ("lamination",), lambda z: slope * (2 * z / length - 1.0)),)
 
-        return Action(changes=changes)
+        return Action(
+            changes=partial(varied, ratio=values["G_rz_end_ratio"]),
+            training=Training(self.name, partial(varied, ratio=TRAINED)),
+        )
 
 
 EFFECT = StackPressureGradient()

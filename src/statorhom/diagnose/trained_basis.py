@@ -1,0 +1,66 @@
+"""The broken basis with the local fields of some changes, and where the named modes stand in it.
+
+Stiffness that varies deforms the stator where its symmetric modes are smooth, and along the axis it couples modes far
+apart. One static response to every example's residual holds most of that; it is made once for all places and strengths.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from statorhom.model.broken.basis import SymmetricBasis
+from statorhom.model.broken.change import Change
+from statorhom.model.broken.enrich import enriched
+from statorhom.model.broken.named_response import Columns, columns_of
+from statorhom.model.broken.solve import solve_broken
+from statorhom.model.convergence import ModeKey
+from statorhom.model.harmonic import Harmonic
+
+LEAST = 3e-5  # relative frequency error below which a direction is left out
+OWN = 0.3  # share of the named modes from which on a mode is theirs
+
+
+@dataclass(frozen=True, eq=False)
+class TrainedBasis:
+    """A basis of all harmonics.
+
+    Parameters
+    ----------
+    basis : of the symmetric stator.
+    columns : places of the named modes.
+    """
+
+    basis: SymmetricBasis
+    columns: Mapping[ModeKey, Columns]
+
+    def trained(
+        self, examples: Sequence[Change], named: Mapping[ModeKey, tuple[Harmonic, float]]
+    ) -> TrainedBasis:
+        """With the responses of the named modes to some changes.
+
+        Parameters
+        ----------
+        examples : each by itself.
+        named : problem and frequency (Hz) of the named modes.
+        """
+        found = self
+        for change in examples:
+            modes = solve_broken(found.basis, [change], tolerance=None)
+            rows = [
+                i
+                for c in found.columns.values()
+                for i in ([c.cosine] if c.sine is None else [c.cosine, c.sine])
+            ]
+            used = np.sum(modes.coordinates[rows] ** 2, axis=0) > OWN
+            values, x = modes.eigenvalues[used], modes.coordinates[:, used]
+            found = trained_basis(enriched(found.basis, modes.coupled, values, x, LEAST), named)
+        return found
+
+
+def trained_basis(basis: SymmetricBasis, named: Mapping[ModeKey, tuple[Harmonic, float]]) -> TrainedBasis:
+    """A basis as it is; modes of problems that it lacks are left out."""
+    places = {key: columns_of(basis, *place) for key, place in named.items()}
+    return TrainedBasis(basis, {key: place for key, place in places.items() if place is not None})
