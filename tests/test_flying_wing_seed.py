@@ -92,7 +92,7 @@ def test_table_4_falls_with_the_mesh(study: MeshStudy) -> None:
 
 
 def test_variations_below_half_a_percent_do_not_follow_from_table_4(study: MeshStudy) -> None:
-    """From 8 to 4 mm the modes fall by 0.50, 0.82 and 0.65 %; "below approximately 0.5 %" holds from mesh to mesh only."""
+    """From 8 to 4 mm the modes fall by 0.50, 0.82 and 0.65 %; "approximately 0.5 %" holds from mesh to mesh only."""
     total = 100 * np.abs(study.total_change)
     assert np.round(total, 2).tolist() == [0.5, 0.82, 0.65]
     assert 100 * np.abs(study.change).max() == pytest.approx(0.51, abs=0.005)

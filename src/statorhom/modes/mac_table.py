@@ -1,7 +1,7 @@
 """Measured and simulated modes side by side: paired by MAC, with the differences of their frequencies.
 
-For bodies whose modes have no circumferential order, and shapes at common points. The difference is that of
-the flying wing's and the wing's tables, |simulated − measured| / measured (equation 11 of the latter), here with its sign.
+For bodies whose modes have no circumferential order, and shapes at common points. The difference is that of the
+flying wing's and the wing's tables, |simulated − measured| / measured (equation 11 of the latter), with its sign.
 """
 
 from __future__ import annotations

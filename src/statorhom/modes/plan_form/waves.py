@@ -91,7 +91,7 @@ def field_waves(form: PlanForm, values: FloatArray) -> FieldWaves:
 def _expansions(
     form: PlanForm, values: FloatArray, stations: tuple[int, int]
 ) -> Iterator[tuple[FloatArray, FloatArray, float]]:
-    """Coefficients (along, across), norms of the polynomials, and the mean square that is to be expected at further points.
+    """Coefficients (along, across), norms of the polynomials, and the mean square to be expected at further points.
 
     Generalized cross-validation (Golub, Heath & Wahba 1979) charges an expansion for its terms, so noise between
     the points does not choose the degrees.
