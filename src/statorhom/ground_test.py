@@ -101,8 +101,8 @@ def compare_shapes(measured: Path, simulated: Path, least_mac: float = LEAST_MAC
 
     Returns
     -------
-    DataFrame with measured_hz, simulated_hz, difference_percent (of the measured one, with its sign), mac, and the names
-    of plates' and wings' shapes.
+    DataFrame with measured_hz, simulated_hz, difference_percent (of the measured one, with its sign), mac, and the
+    names of plates' and wings' shapes.
 
     Raises
     ------

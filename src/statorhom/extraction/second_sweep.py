@@ -29,7 +29,7 @@ def segment_s(stage: SweepStage, modes: Sequence[ExtractedMode]) -> float:
 def second_stage(modes: Sequence[ExtractedMode]) -> list[str]:
     """What to sweep next, one line per stage."""
     return [
-        f"second stage: sweep {stage.start_hz:.4g} … {stage.stop_hz:.4g} Hz at {stage.rate_hz_per_s:.2g} Hz/s or slower "
+        f"second stage: sweep {stage.start_hz:.4g} … {stage.stop_hz:.4g} Hz at {stage.rate_hz_per_s:.2g} Hz/s at most "
         f"({stage.duration_s:.0f} s), segments of {segment_s(stage, modes):.2g} s"
         for stage in second_sweeps(modes)
     ]
