@@ -15,7 +15,6 @@ from statorhom.identify.chain import chain
 from statorhom.identify.recorded_tests import with_recorded_tables
 from statorhom.identify.settings import Settings
 from statorhom.report import write_report
-from statorhom.report.diagnosis.page import write_diagnosis_page
 from statorhom.results.diagnosis import Diagnosis
 from statorhom.results.files import check_folder, read_results
 from statorhom.results.schema import Results
@@ -138,6 +137,7 @@ class Study:
         out: str | os.PathLike[str] | None = None,
         *,
         seed: int = 1,
+        jobs: int = 1,
         apply: bool = False,
         announce: Announce = silent,
     ) -> Diagnosis:
@@ -151,8 +151,9 @@ class Study:
             If files, masses or tests do not allow it.
         """
         folder = self.default_folder if out is None else Path(out)
-        found, details = diagnose_study(self.files, folder, Settings(seed=seed), announce, apply=apply)
-        write_diagnosis_page(found, details, self.files.geometry.core.length_mm, folder)
+        settings = Settings(seed=seed, jobs=jobs)
+        found, _ = diagnose_study(self.files, folder, settings, announce, apply=apply)
+        write_report(folder)
         return found
 
     @staticmethod

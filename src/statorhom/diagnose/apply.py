@@ -1,4 +1,4 @@
-"""The amended study: what was found, written into a copy of the study as far as study files can say it."""
+"""The amended study: what was found, written into a copy of the study."""
 
 from __future__ import annotations
 
@@ -12,30 +12,52 @@ from typing import Any
 
 from statorhom.errors import ResultsError
 from statorhom.physics.action import Action
+from statorhom.physics.declared import DeclaredEffect, effect_table
 from statorhom.study.atomic import write_text
+from statorhom.study.message import one_line
 from statorhom.study.study import StudyFiles
+from statorhom.study.toml_text import toml_text
 
 Toml = dict[str, Any]
 
 
-def write_amended(files: StudyFiles, actions: Sequence[Action], folder: Path) -> Path:
+def write_amended(files: StudyFiles, named: Sequence[DeclaredEffect], folder: Path) -> Path:
     """Write study.toml, and the geometry or tables that change, into a folder.
+
+    What a study's own keys can say is corrected there; the rest stands in ``[[stages.effects]]``.
+    """
+    study = tomllib.loads(files.path.read_text(encoding="utf-8"))
+    _relocate(study, files.path.parent, folder)
+    for effect in named:
+        if not _amend(study, files, effect.action, folder):
+            _declare(study, effect)
+    path = folder / "study.toml"
+    write_text(path, toml_text(study))
+    return path
+
+
+def check_not_the_study(files: StudyFiles, folder: Path) -> None:
+    """Refuse to write the amended study over the study itself.
 
     Raises
     ------
     ResultsError
-        If a study file has no key for what was found.
+        If the results folder is the study's own.
     """
-    study = tomllib.loads(files.path.read_text(encoding="utf-8"))
-    _relocate(study, files.path.parent, folder)
-    changed = [_amend(study, files, action, folder) for action in actions]
-    if not any(changed):
+    if folder.resolve() == files.path.parent.resolve():
         raise ResultsError(
-            f"{files.path}: study files have no key for the effect that was found; diagnosis.json describes it"
+            one_line(
+                f"{folder}: is the study's own folder; choose another --out, for --apply writes study.toml there"
+            )
         )
-    path = folder / "study.toml"
-    write_text(path, toml_text(study))
-    return path
+
+
+def _declare(study: Toml, effect: DeclaredEffect) -> None:
+    for stage in study["stages"]:
+        if stage["name"] == effect.candidate.stage:
+            table = effect_table(effect.candidate, effect.values)
+            rounded = {k: float(f"{v:.6g}") if isinstance(v, float) else v for k, v in table.items()}
+            stage["effects"] = [*stage.get("effects", ()), rounded]
 
 
 def _relocate(study: Toml, origin: Path, folder: Path) -> None:
@@ -60,6 +82,7 @@ def _amend(study: Toml, files: StudyFiles, action: Action, folder: Path) -> bool
         own = {r: s for r, s in action.symmetries.items() if r in stage.get("model", {})}
         if own:
             stage["model"] |= own
+            _forget(stage, own)
     for support in study.get("supports", ()):
         if support["name"] in action.supports:
             support.update(action.supports[support["name"]].model_dump(mode="json", exclude_none=True))
@@ -69,6 +92,14 @@ def _amend(study: Toml, files: StudyFiles, action: Action, folder: Path) -> bool
         _relabel(study, files, (test, label), (order, axial), folder)
     said = (action.masses, action.symmetries, action.supports, action.dimensions, action.names)
     return any(said)
+
+
+def _forget(stage: Toml, regions: Mapping[str, str]) -> None:
+    """Constants of the former symmetry that were prescribed or expected have no meaning any more."""
+    for said in stage.get("identify", {}).values():
+        if isinstance(said, dict):
+            for region in regions:
+                said.pop(region, None)
 
 
 def _geometry(files: StudyFiles, dimensions: Mapping[str, float], folder: Path) -> str:
@@ -100,33 +131,3 @@ def _relabel(
         for one in stage.get("tests", ()):
             if one["name"] == test:
                 one["modal_table"] = f"{test}.csv"
-
-
-def toml_text(table: Toml, prefix: str = "") -> str:
-    """TOML of plain values, tables and arrays of tables."""
-    values, tables, arrays = [], [], []
-    for key, value in table.items():
-        if isinstance(value, dict):
-            tables.append((key, value))
-        elif isinstance(value, list) and value and all(isinstance(v, dict) for v in value):
-            arrays.append((key, value))
-        else:
-            values.append(f"{key} = {_value(value)}")
-    parts = ["\n".join(values)] if values else []
-    for key, value in tables:
-        parts.append(f"[{prefix}{key}]\n{toml_text(value, f'{prefix}{key}.')}")
-    for key, rows in arrays:
-        parts += [f"[[{prefix}{key}]]\n{toml_text(row, f'{prefix}{key}.')}" for row in rows]
-    return "\n".join(part.rstrip("\n") + "\n" for part in parts)
-
-
-def _value(value: Any) -> str:
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, list | tuple):
-        return f"[{', '.join(_value(v) for v in value)}]"
-    if isinstance(value, str):
-        escaped = value.replace("\\", "\\\\").replace('"', '\\"')
-        kept = "".join(c if c >= " " and c != "\x7f" else f"\\u{ord(c):04x}" for c in escaped)
-        return f'"{kept}"'
-    return repr(value)

@@ -8,7 +8,7 @@ import numpy as np
 
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.features import Feature
-from statorhom.diagnose.opposite import likeliest_first
+from statorhom.diagnose.opposite import told_apart
 from statorhom.physics.candidate import Candidate
 from statorhom.results.diagnosis import Location
 from statorhom.study.study_file import FREE
@@ -29,7 +29,7 @@ def located(explanation: Explanation, number: int) -> Location | None:
     told = angle is not None and sd["angle_rad"] < UNTOLD
     same: tuple[float, ...] = ()
     if angle is not None and told:
-        same = likeliest_first(explanation, number, _equivalent(candidate, r.hypothesis.features(r.z), angle))
+        same = told_apart(explanation, number, equivalent_angles(explanation, number)).angles_rad
     degrees = tuple(round(float(np.rad2deg(a)), 3) for a in same)
     return Location(
         angle_deg=degrees[0] if degrees else None,
@@ -38,6 +38,13 @@ def located(explanation: Explanation, number: int) -> Location | None:
         z_mm=None if place is None else 1e3 * place,
         z_sd_mm=None if place is None else 1e3 * min(sd["z_m"], candidate.parameters[-1].upper),
     )
+
+
+def equivalent_angles(explanation: Explanation, number: int) -> tuple[float, ...]:
+    """Angles (rad) that the measured splits do not tell from an effect's own; none where it has no angle."""
+    r, candidate = explanation.refit, explanation.candidates[number]
+    angle = r.hypothesis.effect_values(r.z)[number].get("angle_rad")
+    return () if angle is None else _equivalent(candidate, r.hypothesis.features(r.z), angle)
 
 
 def _tells_places(explanation: Explanation, number: int) -> bool:

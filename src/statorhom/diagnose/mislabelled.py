@@ -25,7 +25,7 @@ def worth_trying(base: Refit, candidates: Sequence[Candidate]) -> tuple[Candidat
     near: dict[tuple[str, str], set[tuple[int, int]]] = {}
     for stage in hypothesis.study.stages:
         for test in stage.tests:
-            modes = predicted(hypothesis.study, stage, values, (), test.name)
+            modes = predicted(hypothesis.study, stage, values, hypothesis.study.effects, test.name)
             for mode in test.modes:
                 if (test.name, mode.label) in odd:
                     near[test.name, mode.label] = {

@@ -8,6 +8,7 @@ frequency, at each of the angles.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -18,56 +19,98 @@ from statorhom.model.broken.change import Change
 from statorhom.model.broken.solve import solve_broken
 from statorhom.model.surface import surface_points
 from statorhom.physics.library import library
+from statorhom.study.study_file import FREE
 
 NEAR = 0.02  # of the frequency: modes whose plane a shape is compared with
+FLOOR = 1e-6  # part of a shape that is never explained
+SURE = 3.0  # standard errors by which the shapes must prefer one angle to exclude another
+LEAST_WORSE = 0.05  # and the least mean of ln of what is left: less is no more than a model's error
+LEAST_SHAPES = 4
 
 
-def likeliest_first(explanation: Explanation, number: int, angles_rad: Sequence[float]) -> tuple[float, ...]:
-    """Angles in the order of how well the measured shapes fit them; as given where no shapes were measured."""
+@dataclass(frozen=True)
+class Told:
+    """Angles that splits do not tell apart, by what the shapes say.
+
+    Parameters
+    ----------
+    angles_rad : the likeliest first; those that the shapes exclude are left out.
+    excluded_rad : these.
+    likelihood_ratio : of the likeliest against the next one, mean of ln over the shapes and its standard error;
+        None where no shapes were measured.
+    """
+
+    angles_rad: tuple[float, ...]
+    excluded_rad: tuple[float, ...] = ()
+    likelihood_ratio: tuple[float, float] | None = None
+
+
+def told_apart(explanation: Explanation, number: int, angles_rad: Sequence[float]) -> Told:
+    """Angles in the order of how well the measured shapes fit them.
+
+    One is excluded when the shapes prefer another: the mean over all shapes of the logarithm of what each leaves
+    unexplained is larger by `SURE` standard errors.
+    """
     if len(angles_rad) < 2:
-        return tuple(angles_rad)
-    scores = [_misfit(explanation, number, angle) for angle in angles_rad]
-    if any(score is None for score in scores):
-        return tuple(angles_rad)
-    order = np.argsort([score for score in scores if score is not None], kind="stable")
-    return tuple(angles_rad[i] for i in order)
+        return Told(tuple(angles_rad))
+    left = np.array([_left_of_all(explanation, number, angle) for angle in angles_rad])
+    if left.shape[1] < LEAST_SHAPES:
+        return Told(tuple(angles_rad))
+    return ranked(tuple(angles_rad), left)
 
 
-def _misfit(explanation: Explanation, number: int, angle: float) -> float | None:
-    """Sum over all shapes of the part that the predicted modes leave; None without shapes."""
+def ranked(angles_rad: Sequence[float], left: np.ndarray) -> Told:
+    """Angles by the parts (angles, shapes) that they leave of every shape."""
+    logs = np.log(left)
+    order = np.argsort(logs.mean(axis=1), kind="stable")
+    best = order[0]
+    kept: list[float] = [angles_rad[best]]
+    excluded: list[float] = []
+    first: tuple[float, float] | None = None
+    for i in order[1:]:
+        worse = logs[i] - logs[best]
+        mean, error = float(worse.mean()), float(worse.std(ddof=1) / np.sqrt(len(worse)))
+        first = first or (mean, error)
+        (excluded if mean > SURE * error and mean > LEAST_WORSE else kept).append(angles_rad[i])
+    return Told(tuple(kept), tuple(excluded), first)
+
+
+def _left_of_all(explanation: Explanation, number: int, angle: float) -> list[float]:
+    """Part of every measured shape that the predicted modes around its frequency leave."""
     r = explanation.refit
     candidate = explanation.candidates[number]
     values = {**r.hypothesis.effect_values(r.z)[number], "angle_rad": angle}
     action = library()[candidate.effect].action(candidate, values, r.hypothesis.study.files)
-    total, seen = 0.0, False
+    found: list[float] = []
     for stage in r.hypothesis.study.stages:
         for test in stage.tests:
             if (
                 action.changes
                 and test.shapes is not None
-                and test.support == "free"
+                and test.support == FREE
                 and action.touches(stage.name, test.name)
             ):
-                total += _left(stage, test, action.changes(stage.model.mesh, stage.reference))
-                seen = True
-    return total if seen else None
+                found += _left(stage, test, action.changes(stage.model.mesh, stage.reference))
+    return found
 
 
-def _left(stage: StageModel, test: MeasuredTest, changes: Sequence[Change]) -> float:
+def _left(stage: StageModel, test: MeasuredTest, changes: Sequence[Change]) -> list[float]:
     shapes = test.shapes
     assert shapes is not None
     z, theta = (a.ravel() for a in np.meshgrid(shapes.z_m, shapes.angles_rad, indexing="ij"))
     modes = solve_broken(stage.broken, changes, tolerance=None)
     motion = modes.shapes.motion(surface_points(stage.model.mesh, theta, z))[:, 0]
     frequency = {m.label: m.frequency_hz for m in test.modes}
-    total = 0.0
+    found = []
     for label, radial in zip(shapes.labels, shapes.radial, strict=True):
         measured = radial.ravel()
         known = np.isfinite(measured)
-        near = np.abs(np.log(modes.frequencies_hz / frequency[label])) < NEAR
-        if label not in frequency or not near.any() or known.sum() <= near.sum():
+        near = np.abs(np.log(modes.frequencies_hz / frequency.get(label, np.nan))) < NEAR
+        if not near.any() or known.sum() <= near.sum():
+            # the place is kept, so that all angles speak of the same shapes
+            found.append(1.0)
             continue
         solution = np.linalg.lstsq(motion[known][:, near], measured[known], rcond=None)[0]
         rest = measured[known] - motion[known][:, near] @ solution
-        total += float(rest @ rest / (measured[known] @ measured[known]))
-    return total
+        found.append(max(float(rest @ rest / (measured[known] @ measured[known])), FLOOR))
+    return found

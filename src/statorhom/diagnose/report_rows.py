@@ -10,6 +10,7 @@ from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.features import Feature
 from statorhom.diagnose.location import located
 from statorhom.diagnose.refit import Refit
+from statorhom.physics.declared import DeclaredEffect
 from statorhom.physics.library import library
 from statorhom.physics.parameter import EffectParameter
 from statorhom.results.diagnosis import (
@@ -51,6 +52,22 @@ def effect_results(explanation: Explanation, probability: float) -> tuple[Effect
                 note=effect.note,
             )
         )
+    return tuple(found)
+
+
+def as_declared(explanation: Explanation) -> tuple[DeclaredEffect, ...]:
+    """The explanation's effects with their values, as a study would declare them."""
+    r = explanation.refit
+    found = []
+    for number, (candidate, values) in enumerate(
+        zip(explanation.candidates, r.hypothesis.effect_values(r.z), strict=True)
+    ):
+        place = located(explanation, number)
+        if place is not None and place.angle_deg is not None:
+            # the likeliest of the angles that splits alone do not tell apart
+            values = {**values, "angle_rad": float(np.deg2rad(place.angle_deg))}
+        action = library()[candidate.effect].action(candidate, values, r.hypothesis.study.files)
+        found.append(DeclaredEffect(candidate, values, action))
     return tuple(found)
 
 

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from statorhom.diagnose.apply import write_amended
+from statorhom.diagnose.apply import check_not_the_study, write_amended
 from statorhom.diagnose.diagnosis import diagnose
 from statorhom.diagnose.recorded import measured_tests
+from statorhom.diagnose.refit_chain import with_refitted_chain
 from statorhom.geometry.stator import stator_geometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.settings import Settings
 from statorhom.results.diagnosis import Details, Diagnosis, write_diagnosis
-from statorhom.results.files import check_folder
+from statorhom.results.files import check_folder, earlier_stages
 from statorhom.study.study import StudyFiles
 
 
@@ -27,7 +28,7 @@ def diagnose_study(
 
     Parameters
     ----------
-    apply : also write the amended study where an effect was named.
+    apply : where an effect was named, also write the amended study and identify the chain without and with it.
 
     Raises
     ------
@@ -35,10 +36,15 @@ def diagnose_study(
         If files, masses or tests do not allow it.
     """
     check_folder(folder)
+    earlier_stages(folder, files.study.name)  # results of another study are refused before any work
+    if apply:
+        check_not_the_study(files, folder)
     geometry = stator_geometry(files.geometry, files.geometry_path)
-    files, tests = measured_tests(files, folder, announce)
-    diagnosis, details, actions = diagnose(files, geometry, tests, settings, announce)
+    measured, tests = measured_tests(files, folder, announce, settings.jobs)
+    diagnosis, details, named = diagnose(measured, geometry, tests, settings, announce)
     write_diagnosis(diagnosis, details, folder)
-    if apply and actions:
-        write_amended(files, actions, folder)
+    if apply and named:
+        amended = write_amended(measured, named, folder)
+        details = with_refitted_chain(details, files, amended, folder, settings, announce)
+        write_diagnosis(diagnosis, details, folder)
     return diagnosis, details

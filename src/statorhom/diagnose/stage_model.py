@@ -9,14 +9,17 @@ from typing import Any
 
 import numpy as np
 
+from statorhom.diagnose.joint_basis import JointBasis, joint_basis
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.ring_basis import RingBasis, RingModes, ring_basis
+from statorhom.geometry.stator import StepGeometry
 from statorhom.identify.model_error import ModelError
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.mesh.density import MeshDensity
 from statorhom.mesh.extrude import mesh_step
 from statorhom.model.affine import AffineModel, Materials, assemble
 from statorhom.model.broken.basis import SymmetricBasis, symmetric_basis
+from statorhom.model.broken.named_response import Columns, columns_of
 from statorhom.model.convergence import ModeKey, converge, mode_keys
 from statorhom.model.free_modes import FreeModes, problem_at
 from statorhom.model.radial_profile import radial_profile
@@ -26,15 +29,6 @@ BAND = 1.12  # predictions reach this much higher than the highest measured mode
 BROKEN_MARGIN = 1.25
 MOST = 6  # modes of a harmonic problem on it
 FINER = 1.5  # second mesh of the extrapolation
-
-
-@dataclass(frozen=True)
-class Columns:
-    """Where a symmetric mode stands among a basis's coordinates; `sine` is None for single modes."""
-
-    cosine: int
-    sine: int | None
-    eigenvalue: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,6 +54,7 @@ class StageModel:
     _last: dict[bytes, RingModes] = field(default_factory=dict, repr=False)
     kept_responses: dict[Hashable, Any] = field(default_factory=dict, repr=False)
     _slopes: dict[int, dict[ModeKey, np.ndarray]] = field(default_factory=dict, repr=False)
+    _joints: dict[tuple[tuple[str, ...], bool], JointBasis] = field(default_factory=dict, repr=False)
 
     @property
     def name(self) -> str:
@@ -94,6 +89,20 @@ class StageModel:
         top = self.ring.highest_hz
         return symmetric_basis(self.model, self.reference, top, margin=BROKEN_MARGIN, certified=False)
 
+    def joined(self, regions: tuple[str, ...], *, with_arcs: bool) -> JointBasis:
+        """Modes with a contact around some regions."""
+        used = tuple(r for r in regions if r in self.model.mesh.regions)
+        if (used, with_arcs) not in self._joints:
+            self._joints[used, with_arcs] = joint_basis(
+                self.model.mesh,
+                used,
+                self.reference,
+                self.ring.highest_hz,
+                self.orders,
+                with_arcs=with_arcs,
+            )
+        return self._joints[used, with_arcs]
+
     @cached_property
     def reference_keys(self) -> Mapping[ModeKey, StatorMode]:
         """Modes at the reference by name."""
@@ -102,7 +111,10 @@ class StageModel:
     @cached_property
     def columns(self) -> Mapping[ModeKey, Columns]:
         """Where the named modes of the reference stand in the broken basis."""
-        found = {key: _place(self.ring, self.broken, mode) for key, mode in self.reference_keys.items()}
+        found = {
+            key: columns_of(self.broken, self.ring.problems[m.problem].space, m.frequency_hz)
+            for key, m in self.reference_keys.items()
+        }
         return {key: place for key, place in found.items() if place is not None}
 
     @cached_property
@@ -130,7 +142,7 @@ def stage_model(
     setup: StageSetup, tests: Sequence[MeasuredTest], snapshots: Sequence[Materials], density: MeshDensity
 ) -> StageModel:
     """A stage at the first of some materials, good near all of them; no mesh factors yet."""
-    assert setup.step is not None
+    assert isinstance(setup.step, StepGeometry)
     model = assemble(mesh_step(setup.step, density))
     top = BAND * max(mode.frequency_hz for test in tests for mode in test.modes)
     named = [m.order for test in tests for m in test.modes if m.order is not None]
@@ -141,7 +153,7 @@ def stage_model(
 
 def mesh_error(setup: StageSetup, ring: RingBasis, materials: Materials, density: MeshDensity) -> ModelError:
     """Mesh factors from two meshes at given materials."""
-    assert setup.step is not None
+    assert isinstance(setup.step, StepGeometry)
     finer = assemble(mesh_step(setup.step, density.refined(FINER)))
     orders = sorted({m.order for t in setup.tests for m in t.modes if m.order} or {2, 3, 4})
     fine = problem_at(finer, materials).solve(ring.highest_hz, orders, MOST)
@@ -160,19 +172,6 @@ def with_reference(stage: StageModel, materials: Materials) -> StageModel:
         reference=materials,
         _last={},
         _slopes={},
+        _joints={},
         kept_responses={},
     )
-
-
-def _place(ring: RingBasis, basis: SymmetricBasis, mode: StatorMode) -> Columns | None:
-    space = ring.problems[mode.problem].space
-    value = (2 * np.pi * mode.frequency_hz) ** 2
-    for problem, place in zip(basis.problems, basis.places, strict=True):
-        own = problem.sector.space
-        if (own.order, own.parity, own.axial) != (space.order, space.parity, space.axial):
-            continue
-        nearest = int(np.argmin(np.abs(problem.values - value)))
-        sine = place[True].start + nearest if True in place and False in place else None
-        first = place[False] if False in place else place[True]
-        return Columns(first.start + nearest, sine, float(problem.values[nearest]))
-    return None

@@ -15,6 +15,7 @@ from statorhom.geometry.stator import StatorGeometry
 from statorhom.identify.stage_materials import DENSITY
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.model.affine import Materials
+from statorhom.physics.action import Action
 from statorhom.study.study import StudyFiles
 
 FloatArray = npt.NDArray[np.float64]
@@ -30,12 +31,14 @@ class StudyModel:
     geometry : of the machine.
     constants : of all steps.
     stages : the tested ones.
+    effects : what the study declares beside materials and supports.
     """
 
     files: StudyFiles
     geometry: StatorGeometry
     constants: Constants
     stages: tuple[StageModel, ...]
+    effects: tuple[Action, ...] = ()
     _volumes: dict[int, Mapping[str, float]] = field(default_factory=dict, repr=False)
 
     def masses(self, values: Mapping[str, float], corrected: Mapping[str, float]) -> dict[str, float]:

@@ -10,10 +10,10 @@ from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
-from statorhom.geometry.block import BlockGeometry
 from statorhom.geometry.tested_object import ObjectGeometry, object_geometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.described import described
+from statorhom.identify.effect_shifts import effect_shifts
 from statorhom.identify.measured_mac import with_mac
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.priors import Carried
@@ -126,6 +126,7 @@ class Chain:
         setups = [stage_setup(self.files, self.geometry, i) for i in range(last + 1)]
         for setup in setups:
             check_fit(self.files, setup)
+            effect_shifts(self.files, setup)
         return setups
 
     def _step(
@@ -153,9 +154,8 @@ class Chain:
         analytic = analytic_values(
             self.files, setup, _earlier_densities(self.files, self.geometry, setup.index)
         )
-        run = run_stage(setup, carried, analytic, self.settings, workers, announce, BasisStore(self.bases))
-        if isinstance(setup.step, BlockGeometry):
-            return stage_result(run, state.mass_kg, state.regions, {})
+        store, effects = BasisStore(self.bases), effect_shifts(self.files, setup)
+        run = run_stage(setup, carried, analytic, self.settings, workers, announce, store, effects)
         shapes, rows = free_shapes(run)
         result = stage_result(run, state.mass_kg, state.regions, rows)
         progress = announce("supported tests", 1)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from statorhom.model.broken.named_response import Response
 from statorhom.model.convergence import ModeConvergence, ModeKey
 
 # Where a table gives no standard deviation: the resolution and repeatability of a hammer test.
@@ -30,15 +31,22 @@ class ModelError:
     factors : mode → extrapolated over computed frequency; other modes take the mean of their order, or of all.
     sds : mode → relative standard deviation of the extrapolation.
     corrections : mode → relative change from the fitting mesh to the extrapolation.
+    effects : mode → what effects that the study declares do to it.
     """
 
     factors: Mapping[ModeKey, float] = field(default_factory=dict)
     sds: Mapping[ModeKey, float] = field(default_factory=dict)
     corrections: Mapping[ModeKey, float] = field(default_factory=dict)
+    effects: Mapping[ModeKey, Response] = field(default_factory=dict)
 
     def factor(self, key: ModeKey) -> float:
         """Mesh factor of a mode."""
         return _nearest(self.factors, key, 1.0)
+
+    def effect(self, key: ModeKey) -> float:
+        """Factor of the declared effects on the middle of a mode's lines."""
+        shifts = {k: response.shift for k, response in self.effects.items()}
+        return float(np.exp(_nearest(shifts, key, 0.0)))
 
     def shared(self, key: ModeKey) -> float:
         """Relative standard deviation that the modes of a stage share; they are all wrong in the same direction."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,6 +21,7 @@ from statorhom.identify.stage_basis import TOLERANCE
 from statorhom.identify.stage_materials import DENSITY
 from statorhom.identify.stage_problem import MESH, StageProblem
 from statorhom.model.affine import Materials
+from statorhom.model.broken.named_response import Response
 from statorhom.model.convergence import ModeConvergence, ModeKey, mode_keys
 from statorhom.model.reduced_stator import ReducedStator
 from statorhom.study.stages import IdentifyKeys
@@ -36,6 +37,8 @@ REBASED = 2  # rounds in which the reduced model may be made anew around the opt
 SETTLED = 0.1  # the discrepancy is settled when it changes by less than this part
 # convergence study of the modes at given materials
 Refine = Callable[[Materials], tuple[ModeConvergence, ...]]
+# what declared effects do to the modes at given materials
+Effects = Callable[[Materials], Mapping[ModeKey, Response]]
 # a reduced model that is exact around some optima of the problem
 Rebase = Callable[[StageProblem, Sequence[np.ndarray]], ReducedStator]
 
@@ -85,6 +88,7 @@ def fit_stage(
     seed: int,
     workers: Workers,
     progress: Progress | None = None,
+    effects: Effects | None = None,
 ) -> StageFit:
     """Find the constants of a stage.
 
@@ -97,6 +101,7 @@ def fit_stage(
     seed : of the search.
     workers : processes.
     progress : called with the evaluations spent.
+    effects : of the study's declared effects; None where it has none.
 
     Raises
     ------
@@ -107,6 +112,19 @@ def fit_stage(
         raise IdentificationError(
             "the stage has no mode to fit: give a free test modes that are not held out"
         )
+    starts = search(problem, keys, seed=seed, workers=workers, progress=progress)
+    return fit_from(problem, starts, keys.evaluations, refine, rebase, seed=seed, effects=effects)
+
+
+def search(
+    problem: StageProblem,
+    keys: IdentifyKeys,
+    *,
+    seed: int,
+    workers: Workers,
+    progress: Progress | None = None,
+) -> list[np.ndarray]:
+    """Coordinates (d,) that are worth a polish, by chains on the reduced model; see `fit_stage`."""
     coarse = replace(problem, space=search_space(problem.space)).coarse()
     found = find_optima(
         coarse,
@@ -118,13 +136,38 @@ def fit_stage(
         progress=progress,
     )
     hopeful = [o for o in found[:MOST_STARTS] if o.value < found[0].value + HOPELESS]
-    starts = [problem.space.internal(coarse.space.values(o.x)) for o in hopeful]
-    problem, convergence, optima = _sharpen(problem, starts, refine, rebase)
-    return StageFit(problem, posterior(optima, problem.space, seed=seed), convergence, keys.evaluations)
+    return [problem.space.internal(coarse.space.values(o.x)) for o in hopeful]
+
+
+def fit_from(
+    problem: StageProblem,
+    starts: Sequence[np.ndarray],
+    evaluations: int,
+    refine: Refine,
+    rebase: Rebase | None = None,
+    *,
+    seed: int,
+    effects: Effects | None = None,
+) -> StageFit:
+    """Polish what a search has found, correct for the mesh, and draw intervals.
+
+    Parameters
+    ----------
+    problem : in the full space, without mesh factors.
+    starts : (d,) each, the most hopeful first.
+    evaluations : that the search has spent.
+    refine, rebase, seed, effects : see `fit_stage`.
+    """
+    problem, convergence, optima = _sharpen(problem, starts, refine, rebase, effects)
+    return StageFit(problem, posterior(optima, problem.space, seed=seed), convergence, evaluations)
 
 
 def _sharpen(
-    problem: StageProblem, starts: Sequence[np.ndarray], refine: Refine, rebase: Rebase | None
+    problem: StageProblem,
+    starts: Sequence[np.ndarray],
+    refine: Refine,
+    rebase: Rebase | None,
+    effects: Effects | None,
 ) -> tuple[StageProblem, tuple[ModeConvergence, ...], tuple[Optimum, ...]]:
     """Alternate polish, mesh correction and discrepancy until they agree."""
     problem = problem.coarse()
@@ -137,8 +180,12 @@ def _sharpen(
             optima, refined_at = _polish_all(problem, [o.x for o in optima]), None
         x = optima[0].x
         if refined_at is None or np.linalg.norm(optima[0].jacobian @ (x - refined_at)) > MOVED:
-            convergence, refined_at = refine(problem.stage_materials(x)), x
-            problem = replace(problem, error=model_error(convergence, reduced_frequencies(problem, x)))
+            materials = problem.stage_materials(x)
+            convergence, refined_at = refine(materials), x
+            error = model_error(convergence, reduced_frequencies(problem, x))
+            if effects is not None:
+                error = replace(error, effects=effects(materials))
+            problem = replace(problem, error=error)
         before = problem.discrepancy
         problem = replace(problem, discrepancy=unexplained(problem, x))
         optima = _polish_all(problem, [o.x for o in optima])

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from statorhom.errors import MaterialError
 from statorhom.identify.bounds import Array
+from statorhom.identify.doublet_lines import line_shifts
 from statorhom.identify.model_error import DEFAULT_RELATIVE_SD, ModelError
 from statorhom.identify.parameters import ParameterSpace
 from statorhom.identify.problem import Problem
@@ -66,14 +67,29 @@ def seen(mode: StatorMode) -> float:
 
 
 def corrected(modes: Sequence[StatorMode], error: ModelError, shift: float = 0.0) -> list[CorrectedMode]:
-    """Modes with their mesh factor and the shared shift (in its standard deviations) applied."""
+    """Modes with mesh factor, declared effects and the shared shift (in its standard deviations) applied."""
     keys = {id(mode): key for key, mode in mode_keys(modes).items()}
     found = []
     for mode in modes:
         key = keys.get(id(mode))
-        factor = 1.0 if key is None else error.factor(key) * (1.0 + shift * error.shared(key))
+        factor = 1.0
+        if key is not None:
+            factor = error.factor(key) * error.effect(key) * (1.0 + shift * error.shared(key))
         found.append(CorrectedMode(mode, key, mode.frequency_hz * factor, seen(mode)))
     return found
+
+
+def doublet_lines(
+    measured: Sequence[MeasuredMode],
+    keys: Sequence[ModeKey | None],
+    partners: Mapping[ModeKey, CorrectedMode],
+    error: ModelError,
+) -> list[float]:
+    """How far (in ln f) the measured modes' lines lie off the middle of their doublets, by declared effects."""
+    if not error.effects:
+        return [0.0] * len(measured)
+    middle = {key: mode.frequency_hz for key, mode in partners.items()}
+    return line_shifts([mode.frequency_hz for mode in measured], keys, error.effects, middle)
 
 
 def pair_modes(
@@ -163,17 +179,25 @@ class StageProblem(Problem):
             return np.full(len(self.measured) + 1, np.nan)
         keys = self.pairing(simulated) if self.held is None else self.held
         partners = {mode.key: mode for mode in simulated if mode.key is not None}
-        distances = [self._residual(m, k, partners) for m, k in zip(self.measured, keys, strict=True)]
+        lines = doublet_lines(self.measured, keys, partners, self.error)
+        distances = [
+            self._residual(m, k, partners, line)
+            for m, k, line in zip(self.measured, keys, lines, strict=True)
+        ]
         unlikely = self._missed(simulated, keys) + self._hidden(keys, partners)
         return np.array([*distances, np.sqrt(unlikely)])
 
     def _residual(
-        self, measured: MeasuredMode, key: ModeKey | None, partners: dict[ModeKey, CorrectedMode]
+        self,
+        measured: MeasuredMode,
+        key: ModeKey | None,
+        partners: dict[ModeKey, CorrectedMode],
+        line: float,
     ) -> float:
         sd = self.relative_sd(measured, key)
         if key is None or key not in partners:
             return (GATE if measured.order is None else LABELLED_GATE) * PAIRING_SD / sd
-        return float(np.log(partners[key].frequency_hz / measured.frequency_hz)) / sd
+        return float(np.log(partners[key].frequency_hz / measured.frequency_hz) + line) / sd
 
     def data_jacobian(self, x: Array) -> Array:
         """Analytic derivative of the residuals with the pairing held, (modes + 1, d)."""

@@ -9,9 +9,13 @@ from statorhom.identify.mode_results import shared_shift, simulated_modes
 from statorhom.identify.model_error import DEFAULT_RELATIVE_SD
 from statorhom.identify.stage_materials import DENSITY
 from statorhom.identify.stage_run import StageRun
+from statorhom.identify.surface.summary import surface_warnings
+from statorhom.mesh.mirror_mesh import MirrorMesh
 from statorhom.results.schema import ModeResult
+from statorhom.study.response_surface import SurfaceKeys
 from statorhom.study.stages import StageKeys
 from statorhom.study.study import StudyFiles
+from statorhom.study.study_file import FREE
 
 LIKELY = 0.05  # an optimum of this probability is worth a warning
 UNEXPLAINED_PERCENT = 0.5  # of the frequencies: what manufacturing scatter alone does not leave
@@ -22,11 +26,14 @@ def assumptions(run: StageRun) -> tuple[str, ...]:
     shift = shared_shift(run)
     keys = [m.key for m in simulated_modes(run) if m.key is not None and m.visibility >= 1.0]
     parts = [abs(shift) * run.error.shared(k) for k in keys]
+    block = isinstance(run.model.mesh, MirrorMesh)
+    axes = "x, y and z" if block else "r, θ and z"
+    causes = "" if block else " (tooth roots, slot corners)"
     lines = [
-        "Every region is homogeneous and perfectly bonded to its neighbours; its material's axes are r, θ and z.",
+        f"Every region is homogeneous and perfectly bonded to its neighbours; its material's axes are {axes}.",
         "Free tests: no suspension stiffness. Undamped natural frequencies are compared with the measured ones.",
         f"Where a table gives no standard deviation, a frequency counts as known to {100 * DEFAULT_RELATIVE_SD:.1f} %.",
-        f"All simulated frequencies share a model error (tooth roots, slot corners) that grows with what the mesh "
+        f"All simulated frequencies share a model error{causes} that grows with what the mesh "
         f"refinement changes; the fit put it at {shift + 0.0:+.2f} of its standard deviations, "
         f"at most {100 * max(parts, default=0.0):.2f} % of a frequency.",
     ]
@@ -34,6 +41,8 @@ def assumptions(run: StageRun) -> tuple[str, ...]:
         lines.append(
             "Modes without an order in the table were assigned by frequency; doubtful ones are marked."
         )
+    if run.effects.names:
+        lines.append(f"The free modes contain what the study declares: {', '.join(run.effects.names)}.")
     if "overhang" in run.materials and "overhang" not in run.setup.materials.sources:
         lines.append("The winding's overhangs have the material of the winding in the slots.")
     return tuple(lines)
@@ -48,12 +57,21 @@ def warnings(run: StageRun, modes: Sequence[ModeResult]) -> list[str]:
             f"stage {run.setup.keys.name!r}: the declared model leaves {unexplained:.1f} % of the fitted frequencies "
             f"unexplained; the intervals were widened accordingly, but a physical effect may be missing"
         )
+    if run.surface is not None:
+        keys = run.setup.keys.identify.response_surface or SurfaceKeys()
+        found += surface_warnings(run.surface, keys, run.setup.keys.name)
     found += _rivals(run)
     for m in modes:
         if m.role == "unmatched" and m.measured_hz is not None:
             found.append(
                 f"test {m.test!r}: the measured mode at {m.measured_hz:.0f} Hz has no simulated partner"
             )
+    local = [n for n, a in zip(run.effects.names, run.effects.actions, strict=True) if a.changes]
+    if local and any(t.support != FREE for t in run.setup.tests):
+        found.append(
+            f"stage {run.setup.keys.name!r}: its supported tests are predicted without {', '.join(local)}; "
+            "`statorhom diagnose` compares them with it"
+        )
     if not run.basis.holds:
         names = ", ".join(f"({r}, {n})" for r, n in run.basis.broken)
         found.append(

@@ -52,7 +52,7 @@ class HexMesh:
         return replace(self, region=region, regions=regions)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PartMesh(HexMesh):
     """Mesh of the part that a symmetric body is copied from; `axes` are those of its materials."""
 

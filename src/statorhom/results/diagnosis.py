@@ -130,8 +130,59 @@ class ScanRow(_Part):
     gain: float
 
 
+class MapRow(_Part):
+    """Where one test's shapes contradict the declared model: share of the error by region, angle and height."""
+
+    stage: str
+    test: str
+    angles_deg: tuple[float, ...]
+    z_mm: tuple[float, ...]
+    regions: dict[str, tuple[tuple[float, ...], ...]]
+    error: float
+    modes: tuple[tuple[int, int], ...]
+
+
+class OppositeRow(_Part):
+    """Angles of an effect that splits do not tell apart, and what the shapes' other waves say of them."""
+
+    effect: str
+    kept_deg: tuple[float, ...]
+    excluded_deg: tuple[float, ...]
+    mean_log_ratio: float | None = None
+    standard_error: float | None = None
+
+
+class MachineRow(_Part):
+    """What the pictures need of the machine."""
+
+    length_mm: float
+    outer_diameter_mm: float
+    slots: int
+
+
+class OptionRow(_Part):
+    """A measurement that could be made next: hours of work, and the log evidence that it is expected to bring."""
+
+    what: str
+    hours: float
+    log_evidence: float
+
+
+class RefittedRow(_Part):
+    """A constant of the chain identified without and with what was left out."""
+
+    stage: str
+    name: str
+    before: float
+    before_ci90: tuple[float, float]
+    before_status: str
+    after: float
+    after_ci90: tuple[float, float]
+    after_status: str
+
+
 class AngleRow(_Part):
-    """Evidence around the circumference for the leading effect, 0 … 1."""
+    """Share of the measured splits that one local cause at an angle explains, 0 … 1."""
 
     angle_deg: float
     weight: float
@@ -165,6 +216,13 @@ class Details(_Part):
     constants: tuple[ConstantRow, ...]
     evidence: tuple[tuple[str, float], ...]
     seconds: float
+    machine: MachineRow | None = None
+    maps: tuple[MapRow, ...] = ()
+    opposite: tuple[OppositeRow, ...] = ()
+    summaries: dict[str, str] = Field(default_factory=dict)
+    options: tuple[OptionRow, ...] = ()
+    refitted: tuple[RefittedRow, ...] = ()
+    refit_note: str | None = None
 
 
 def write_diagnosis(diagnosis: Diagnosis, details: Details, folder: Path) -> Path:

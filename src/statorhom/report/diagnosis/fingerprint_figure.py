@@ -1,39 +1,93 @@
-"""What the declared model leaves of every measured feature, and what the explanation leaves."""
+"""By how much the declared model misses every measured feature, and by how much with the explanation in it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from statorhom.report.document import Picture
-from statorhom.report.figures.canvas import FONT_PT, INK, PREDICTED, SIMULATED, new_figure, svg, tidy
+from statorhom.report.diagnosis.words import mode_words
+from statorhom.report.document import Picture, text
+from statorhom.report.figures.canvas import FONT_PT, INK, PREDICTED, SIMULATED, new_figure, safe, svg, tidy
 from statorhom.results.diagnosis import FeatureRow
 
-WORDS = {"frequency": "frequency", "split": "split of the doublet", "shift": "shift of the pole"}
-MOST = 40
+SHORT = {"frequency": "frequency", "split": "two lines", "shift": "plane to plane", "damping": "damping"}
+MOST = 24
+TICKS = (0, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
 
-def fingerprint_figure(rows: Sequence[FeatureRow]) -> Picture:
-    """Bars in standard deviations on a scale that is linear up to three of them."""
-    shown = [r for r in rows if r.sd < 0.5][:MOST]
-    figure = new_figure(170, 14 + 4.2 * max(len(shown), 3))
+@dataclass(frozen=True)
+class Miss:
+    """All features of one kind of one mode: how many standard deviations off, together."""
+
+    test: str
+    mode: tuple[int, int] | None
+    kind: str
+    before: float
+    after: float
+
+
+def misses(rows: Sequence[FeatureRow]) -> list[Miss]:
+    """Features gathered by test, mode and kind, root mean squares; in the order of the tests and modes."""
+    gathered: dict[tuple[str, tuple[int, int] | None, str], list[FeatureRow]] = {}
+    for row in rows:
+        gathered.setdefault((row.test, row.mode, row.kind), []).append(row)
+    return [
+        Miss(test, mode, kind, _size(own, "before"), _size(own, "after"))
+        for (test, mode, kind), own in gathered.items()
+    ]
+
+
+def fingerprint_figure(rows: Sequence[FeatureRow], changed: bool) -> Picture:
+    """Bars in standard deviations; `changed`: whether there is an explanation to compare with."""
+    every = misses(rows)
+    largest = sorted(every, key=lambda m: -max(m.before, m.after))[:MOST]
+    shown = [m for m in every if m in largest]
+    figure = new_figure(170, 16 + 5.2 * max(len(shown), 3))
     axes = figure.subplots()
     places = np.arange(len(shown))[::-1]
-    for offset, colour, side in ((0.18, PREDICTED, "before"), (-0.18, SIMULATED, "after")):
-        values = [(getattr(r, side) - r.measured) / r.sd for r in shown]
-        axes.barh(places + offset, values, height=0.32, color=colour, label=side)
-    axes.set_xscale("symlog", linthresh=3.0)
-    axes.axvspan(-2, 2, color="#eef2f5", zorder=0)
+    half = 0.19 if changed else 0.0
+    axes.barh(places + half, [m.before for m in shown], height=0.34, color=PREDICTED, label="declared model")
+    if changed:
+        axes.barh(
+            places - half,
+            [m.after for m in shown],
+            height=0.34,
+            color=SIMULATED,
+            label="with the explanation",
+        )
+    axes.set_xscale("symlog", linthresh=2.0)
+    top = max([3.0, *(max(m.before, m.after) for m in shown)])
+    ticks = [t for t in TICKS if t <= 1.15 * top]
+    axes.set_xticks(ticks, [str(t) for t in ticks])
+    axes.minorticks_off()
+    axes.set_xlim(0, 1.15 * top)
+    axes.axvspan(0, 2, color="#eef2f5", zorder=0)
+    axes.set_yticks(places, [_label(m, len({r.test for r in rows}) > 1) for m in shown])
+    axes.set_ylim(-0.7, len(shown) - 0.3)
+    axes.set_xlabel("how far off, in multiples of what measurement and mesh leave uncertain")
     axes.axvline(0, color=INK, linewidth=0.6)
-    axes.set_yticks(places, [_label(r) for r in shown])
-    axes.set_xlabel("predicted minus measured, in standard deviations")
-    axes.legend(fontsize=FONT_PT - 0.5, frameon=False, loc="best")
+    if changed:
+        axes.legend(
+            fontsize=FONT_PT - 0.5, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2
+        )
     tidy(axes, "x")
-    alt = "bars of what the model leaves of every measured feature, before and after the effect is modelled"
-    return Picture(svg(figure), "svg", 170.0, alt)
+    left = f" The {MOST} largest of {len(every)} are shown." if len(every) > MOST else ""
+    lines = (
+        " “Two lines”: where a mode’s two lines lie apart and at which angle they stand; on a perfectly even stator "
+        "they would coincide."
+    )
+    caption = f"Grey: no more than chance.{lines if any(m.kind == 'split' for m in shown) else ''}{left}"
+    alt = "how far the model misses every measured feature, before and after the effect is modelled"
+    return Picture(svg(figure), "svg", 170.0, alt, text(caption))
 
 
-def _label(row: FeatureRow) -> str:
-    name = "" if row.mode is None else f"({row.mode[0]}, {row.mode[1]}) "
-    return f"{row.test[:24]} {name}{WORDS.get(row.kind, row.kind)}"
+def _label(miss: Miss, several: bool) -> str:
+    test = f"{safe(miss.test, 22)}  " if several else ""
+    mode = f"mode {mode_words(miss.mode)}  " if miss.mode is not None else ""
+    return f"{test}{mode}{SHORT.get(miss.kind, miss.kind)}"
+
+
+def _size(rows: Sequence[FeatureRow], side: str) -> float:
+    return float(np.sqrt(np.mean([((getattr(r, side) - r.measured) / r.sd) ** 2 for r in rows])))

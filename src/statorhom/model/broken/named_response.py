@@ -1,0 +1,70 @@
+"""What a broken symmetry makes of the symmetric stator's named modes: shifts, and complex splits of doublets."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from statorhom.model.broken.basis import SymmetricBasis
+from statorhom.model.broken.solve import BrokenModes
+from statorhom.model.harmonic import Harmonic
+
+LEAST = 0.2  # share of a doublet's plane that its two modes must keep to be called its own
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Where a symmetric mode stands among a basis's coordinates; `sine` is None for single modes."""
+
+    cosine: int
+    sine: int | None
+    eigenvalue: float
+
+
+@dataclass(frozen=True)
+class Response:
+    """Of one named mode.
+
+    Parameters
+    ----------
+    shift : change of ln f of the doublet's mean λ.
+    split : complex split b_r over the mean λ (`statorhom.modes.doublets.complex_split`).
+    """
+
+    shift: float
+    split: complex
+
+
+def columns_of(basis: SymmetricBasis, space: Harmonic, frequency_hz: float) -> Columns | None:
+    """The basis's mode of a harmonic problem that is nearest to a frequency; None where the basis lacks the problem."""
+    value = (2 * np.pi * frequency_hz) ** 2
+    for problem, place in zip(basis.problems, basis.places, strict=True):
+        own = problem.sector.space
+        if (own.order, own.parity, own.axial) != (space.order, space.parity, space.axial):
+            continue
+        nearest = int(np.argmin(np.abs(problem.values - value)))
+        sine = place[True].start + nearest if True in place and False in place else None
+        first = place[False] if False in place else place[True]
+        return Columns(first.start + nearest, sine, float(problem.values[nearest]))
+    return None
+
+
+def named_response(modes: BrokenModes, place: Columns) -> Response | None:
+    """Response of a named mode; None where it can no longer be told among the broken ones."""
+    numbers = [place.cosine] if place.sine is None else [place.cosine, place.sine]
+    parts = modes.coordinates[numbers]
+    weight = np.sum(parts**2, axis=0)
+    chosen = np.sort(np.argsort(-weight)[: len(numbers)])
+    if len(chosen) < len(numbers) or weight[chosen].min() < LEAST:
+        return None
+    values = modes.eigenvalues[chosen]
+    if len(numbers) == 1:
+        return Response(0.5 * float(np.log(values[0] / place.eigenvalue)), 0j)
+    # nearest orthonormal pair in the doublet's plane
+    left, _, right = np.linalg.svd(parts[:, chosen])
+    rotation = left @ right
+    effective = rotation @ np.diag(values) @ rotation.T
+    mean = float(values.mean())
+    split = complex(effective[0, 0] - effective[1, 1], 2 * effective[0, 1]) / mean
+    return Response(0.5 * float(np.log(mean / place.eigenvalue)), split)

@@ -1,0 +1,148 @@
+"""How the diagnosis page says things: effects, their quantities, constants and features, in plain words and units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from statorhom.report.wording import constant_interval, constant_meaning, constant_value, rounded
+from statorhom.results.diagnosis import ConstantRow, EffectResult, Estimated, FeatureRow
+from statorhom.study.message import one_line
+
+Z90 = 1.6448536269514722
+VERDICTS = {
+    "none": "Nothing is missing from the model, as far as these measurements can tell.",
+    "named": "The model lacks something, and the measurements say what.",
+    "ambiguous": "The model lacks something; several explanations fit, and these measurements cannot decide.",
+    "unknown": "The model lacks something that none of the effects known to the program explains.",
+}
+# ending of a quantity's name → factor and unit to show; longer endings first
+UNITS = (
+    ("_n_per_m3", 1.0, "N/m³"),
+    ("_n_per_m2", 1.0, "N/m²"),
+    ("_n_per_m", 1.0, "N/m"),
+    ("_kg", 1.0, "kg"),
+    ("_pa", 1e-9, "GPa"),
+    ("_deg", 1.0, "°"),
+    ("_mm", 1.0, "mm"),
+    ("_k", 1.0, "K"),
+    ("_n", 1.0, "N"),
+)
+GRAMS = 0.5  # kg: below, masses are told in grams
+KINDS = {
+    "frequency": "frequency",
+    "split": "distance and angle of its two lines",
+    "shift": "shift from one measuring plane to the next",
+    "damping": "damping",
+    "density": "density of the sheets",
+}
+
+
+def effect_words(effect: str) -> str:
+    """An effect's name without its underscores."""
+    return one_line(effect.replace("_", " ").replace("+", " and "))
+
+
+def mode_words(mode: tuple[int, int] | None) -> str:
+    """(r, n), or ? where the order is not known."""
+    if mode is None:
+        return ""
+    return f"({mode[0] if mode[0] >= 0 else '?'}, {mode[1]})"
+
+
+def sizes_words(parameters: Mapping[str, Estimated | float | str]) -> str:
+    """All parameters of an effect; a wrong input is told as the key and what it should be."""
+    key = _number(parameters.get("input", ""))
+    if isinstance(key, str) and key and "value" in parameters:
+        unit = unit_of(key, 1.0)[2]
+        said = quantity("value", parameters["value"]).removeprefix("value ")
+        head, _, tail = said.partition(" (")
+        return f"{one_line(key)} should be {head}{_spaced(unit)}" + (f" ({tail}" if tail else "")
+    return "; ".join(quantity(name, value) for name, value in parameters.items())
+
+
+def _number(value: Estimated | float | str) -> float | str:
+    return value.value if isinstance(value, Estimated) else value
+
+
+def quantity(name: str, value: Estimated | float | str) -> str:
+    """A parameter with its unit and 90 % interval: "mass 57 g (52 … 62)"."""
+    number = _number(value)
+    interval = value.ci90 if isinstance(value, Estimated) else None
+    words, factor, unit = unit_of(name, number)
+    if isinstance(number, str):
+        return f"{words}: {one_line(number)}"
+    if interval is None:
+        return f"{words} {figure(number * factor)}{_spaced(unit)}"
+    low, high = (end * factor for end in interval)
+    ends = (low, high)
+    shown = figure(number * factor, ends)
+    return f"{words} {shown}{_spaced(unit)} (90 % interval {figure(low, ends)} … {figure(high, ends)})"
+
+
+def unit_of(name: str, value: float | str) -> tuple[str, float, str]:
+    """Words, factor and unit of a quantity by its name."""
+    for ending, factor, unit in UNITS:
+        if name.endswith(ending):
+            words = name.removesuffix(ending).replace("_", " ")
+            if unit == "kg" and not isinstance(value, str) and abs(value) < GRAMS:
+                factor, unit = 1e3, "g"
+            return words, factor, unit
+    return name.replace("_", " "), 1.0, ""
+
+
+def figure(value: float, interval: tuple[float, float] | None = None) -> str:
+    """A number as people write it."""
+    if value and not 1e-3 <= abs(value) < 1e5:
+        mantissa, power = f"{value:.2e}".split("e")
+        return f"{mantissa}·10{''.join('⁻⁰¹²³⁴⁵⁶⁷⁸⁹'['-0123456789'.index(c)] for c in str(int(power)))}"
+    return rounded(value, interval)
+
+
+def place_words(effect: EffectResult) -> str:
+    """Where an effect sits; empty where it sits nowhere."""
+    place = effect.location
+    parts = []
+    if place is not None and place.angle_deg is not None:
+        sd = place.angle_sd_deg or 0.0
+        also = [f"{a:.0f}°" for a in place.angle_ambiguity_deg[1:]]
+        parts.append(f"at {place.angle_deg:.0f}° ± {max(Z90 * sd, 0.5):.1f}° around the stator")
+        if also:
+            parts[-1] += f" (or, equally possible: {', '.join(also)})"
+    if place is not None and place.z_mm is not None and place.z_sd_mm is not None:
+        parts.append(f"{place.z_mm:.0f} ± {Z90 * place.z_sd_mm:.0f} mm above the core’s lower end")
+    return ", ".join(parts)
+
+
+def constant_words(name: str) -> tuple[str, str]:
+    """Step and name of a constant: "stack:lamination.E_p_pa" → "stack", "lamination: Young's modulus …"."""
+    step, _, rest = name.partition(":")
+    region, _, constant = rest.partition(".")
+    if not constant:
+        return step, "weight" if rest == "mass_kg" else rest.replace("_", " ")
+    meaning = constant_meaning(constant) or constant.replace("_", " ")
+    return step, f"{region}: {meaning}"
+
+
+def constant_figures(row: ConstantRow) -> tuple[str, str]:
+    """Value and 90 % interval of a constant, before and after."""
+    constant = row.name.rpartition(".")[2] if "." in row.name else row.name.rpartition(":")[2]
+    found = []
+    for value, sd in ((row.before, row.before_sd), (row.after, row.after_sd)):
+        ends = (value - Z90 * sd, value + Z90 * sd)
+        if constant == "mass_kg":
+            found.append(f"{figure(value, ends)} kg ({figure(ends[0], ends)} … {figure(ends[1], ends)})")
+        else:
+            ends = (max(ends[0], 0.0), ends[1])
+            found.append(
+                f"{constant_value(constant, value, ends)} ({constant_interval(constant, value, ends)})"
+            )
+    return found[0], found[1]
+
+
+def feature_words(row: FeatureRow) -> str:
+    """What a feature is."""
+    return KINDS.get(row.kind, row.kind.replace("_", " "))
+
+
+def _spaced(unit: str) -> str:
+    return unit if unit in ("", "°") else f" {unit}"
