@@ -118,17 +118,17 @@ def compare_shapes(measured: Path, simulated: Path, least_mac: float = LEAST_MAC
             f"{simulated}: its shapes have {len(nodes)} nodes in common with those of {measured}; "
             "give both files the same node numbers"
         )
-    sides = [[_Mode(shape.frequency_hz, _at(shape, nodes)) for shape in file.shapes] for file in files]
-    seen = _measured_directions(sides[0])
-    sides = [[_Mode(one.frequency_hz, one.shape * seen) for one in side] for side in sides]
-    names = [_names(file, nodes, side) for file, side in zip(files, sides, strict=True)]
+    first, second = ([_Mode(shape.frequency_hz, _at(shape, nodes)) for shape in file.shapes] for file in files)
+    seen = _measured_directions(first)
+    first, second = ([_Mode(one.frequency_hz, one.shape * seen) for one in side] for side in (first, second))
+    names = [_names(file, nodes, side) for file, side in zip(files, (first, second), strict=True)]
     try:
-        rows = mac_table(*sides, least_mac=least_mac)
+        rows = mac_table(first, second, least_mac)
     except IdentificationError as error:
         raise RecordingError(f"{simulated}: {error}") from None
     table = pd.DataFrame(
         {
-            "name": names[1][row.simulated] if row.measured is None else names[0][row.measured],
+            "name": names[0][row.measured] if row.measured is not None else names[1][row.simulated or 0],
             "measured_hz": row.measured_hz,
             "simulated_hz": row.simulated_hz,
             "difference_percent": None if row.difference is None else 100 * row.difference,
