@@ -118,7 +118,9 @@ def compare_shapes(measured: Path, simulated: Path, least_mac: float = LEAST_MAC
             f"{simulated}: its shapes have {len(nodes)} nodes in common with those of {measured}; "
             "give both files the same node numbers"
         )
-    first, second = ([_Mode(shape.frequency_hz, _at(shape, nodes)) for shape in file.shapes] for file in files)
+    first, second = (
+        [_Mode(shape.frequency_hz, _at(shape, nodes)) for shape in file.shapes] for file in files
+    )
     seen = _measured_directions(first)
     first, second = ([_Mode(one.frequency_hz, one.shape * seen) for one in side] for side in (first, second))
     names = [_names(file, nodes, side) for file, side in zip(files, (first, second), strict=True)]
