@@ -34,8 +34,9 @@ class MirrorMesh(PartMesh):
     @property
     def full_dof(self) -> int:
         """Degrees of freedom of the whole body's mesh: nodes on a plane are their own image."""
-        shared = sum(self.on_plane(i).astype(int) for i in range(len(self.mirrors)))
-        return 3 * int(np.sum(2 ** (len(self.mirrors) - np.asarray(shared))))
+        planes = range(len(self.mirrors))
+        shared = sum((self.on_plane(i).astype(int) for i in planes), np.zeros(len(self.nodes), dtype=int))
+        return 3 * int(np.sum(2 ** (len(self.mirrors) - shared)))
 
     def on_plane(self, number: int) -> np.ndarray:
         """(n,) whether a node lies on a plane of symmetry."""
