@@ -17,7 +17,7 @@ from statorhom.model.harmonic import Harmonic, harmonic_spaces
 from statorhom.model.radial_profile import RadialProfile, node_planes, radial_profile
 from statorhom.model.stator_mode import StatorMode, name_modes
 
-DEPENDENT = 1e-6  # part of its mass by which a snapshot must differ from the others
+DEPENDENT = 1e-7  # part of the norm by which a snapshot must differ from the others
 REACH = 1.15  # snapshots reach this much higher than the band
 MOST = 10  # modes of one problem per snapshot
 FIRST_GUESS = 4
@@ -176,7 +176,7 @@ class RingBasis:
         with one_blas_thread():
             for problem in self.problems:
                 solved, unit = _solved(problem.space, matrices, REACH * self.highest_hz)
-                problems.append(_grown(problem, _independent(problem.basis, solved, unit), terms, profile))
+                problems.append(grown(problem, independent(problem.basis, solved, unit), terms, profile))
         return replace(self, problems=tuple(problems))
 
 
@@ -205,8 +205,14 @@ def ring_basis(
 def _solved(
     space: Harmonic, matrices: Sequence[tuple[sp.csr_array, sp.csr_array]], highest_hz: float
 ) -> tuple[np.ndarray, sp.csr_array]:
-    """Modes (m, j) of all snapshots, and the first one's mass."""
+    """Modes (m, j) of all snapshots, and the energy K / λ + M that they have in the mean, λ the band's end.
+
+    It is the energy that tells what a basis lacks: where a material hardly changes its volume, a small difference in
+    shape is a large one in stiffness.
+    """
     found: list[np.ndarray] = []
+    top = (2 * np.pi * highest_hz) ** 2
+    energy = sp.csr_array((space.size, space.size))
     masses: list[tuple[np.ndarray, sp.csr_array]] = []
     expected = FIRST_GUESS
     for K, M in matrices:
@@ -215,23 +221,23 @@ def _solved(
         if mass is None:
             mass = sp.csr_array(space.project(M))
             masses.append((M.data, mass))
-        _, vectors = modes_below(
-            sp.csr_array(space.project(K)), mass, highest_hz, expected, most=MOST, tolerance=LOOSE
-        )
+        stiffness = sp.csr_array(space.project(K))
+        _, vectors = modes_below(stiffness, mass, highest_hz, expected, most=MOST, tolerance=LOOSE)
         found.append(vectors)
+        energy = energy + (stiffness / top + mass) / len(matrices)
         expected = min(max(FIRST_GUESS, vectors.shape[1] + 1), MOST)
-    return np.hstack(found), masses[0][1]
+    return np.hstack(found), sp.csr_array(energy)
 
 
-def _independent(basis: np.ndarray, added: np.ndarray, M: sp.csr_array) -> np.ndarray:
-    """M-orthonormal directions (m, k) of `added` that the basis lacks."""
+def independent(basis: np.ndarray, added: np.ndarray, norm: sp.csr_array) -> np.ndarray:
+    """Directions (m, k) of `added` that the basis lacks, orthonormal in the definite matrix `norm`."""
     if added.shape[1] == 0:
         return added
-    added = added / np.sqrt(np.sum(added * (M @ added), axis=0))
+    added = added / np.sqrt(np.sum(added * (norm @ added), axis=0))
     for _ in range(2 if basis.shape[1] else 0):  # the second time for rounding
-        heavy = M @ basis
+        heavy = norm @ basis
         added = added - basis @ np.linalg.solve(basis.T @ heavy, heavy.T @ added)
-    values, rotation = np.linalg.eigh(added.T @ (M @ added))
+    values, rotation = np.linalg.eigh(added.T @ (norm @ added))
     keep = values > DEPENDENT
     return np.asarray(added @ (rotation[:, keep] / np.sqrt(values[keep])))
 
@@ -259,9 +265,7 @@ def affine_terms(model: AffineModel) -> AffineTerms:
     )
 
 
-def _grown(
-    problem: RingProblem, added: np.ndarray, terms: AffineTerms, profile: RadialProfile
-) -> RingProblem:
+def grown(problem: RingProblem, added: np.ndarray, terms: AffineTerms, profile: RadialProfile) -> RingProblem:
     """The problem with further vectors in its basis; only their products are new."""
     space, old, count = problem.space, problem.basis, added.shape[1]
     if count == 0 and problem.stiffness:
@@ -274,7 +278,7 @@ def _grown(
         k = left.shape[1] // 2
         return np.asarray(left[:, :k].T @ right[:, :count] + left[:, k:].T @ right[:, count:])
 
-    def grown(known: np.ndarray | None, term: sp.csr_array) -> np.ndarray:
+    def larger(known: np.ndarray | None, term: sp.csr_array) -> np.ndarray:
         image = space.copies * (term @ shapes)
         mixed, own = products(before, image), products(shapes, image)
         inner = np.zeros((size, size)) if known is None else known
@@ -283,13 +287,13 @@ def _grown(
     stiffness = {
         r: np.stack(
             [
-                grown(known[q] if (known := problem.stiffness.get(r)) is not None else None, t)
+                larger(known[q] if (known := problem.stiffness.get(r)) is not None else None, t)
                 for q, t in enumerate(parts)
             ]
         )
         for r, parts in terms.stiffness.items()
     }
-    mass = {r: grown(problem.mass.get(r), t) for r, t in terms.mass.items()}
+    mass = {r: larger(problem.mass.get(r), t) for r, t in terms.mass.items()}
     amplitudes = profile.orders(space, space.expand(added))
     if problem.stiffness:
         amplitudes = np.hstack([problem.profile, amplitudes])

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from statorhom.diagnose.joint_basis import JointBasis, joint_basis
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.ring_basis import RingBasis, RingModes, ring_basis
 from statorhom.geometry.stator import StepGeometry
@@ -53,6 +54,7 @@ class StageModel:
     _last: dict[bytes, RingModes] = field(default_factory=dict, repr=False)
     kept_responses: dict[Hashable, Any] = field(default_factory=dict, repr=False)
     _slopes: dict[int, dict[ModeKey, np.ndarray]] = field(default_factory=dict, repr=False)
+    _joints: dict[tuple[tuple[str, ...], bool], JointBasis] = field(default_factory=dict, repr=False)
 
     @property
     def name(self) -> str:
@@ -86,6 +88,20 @@ class StageModel:
         """Modes of all harmonics at the reference, for what breaks the symmetry."""
         top = self.ring.highest_hz
         return symmetric_basis(self.model, self.reference, top, margin=BROKEN_MARGIN, certified=False)
+
+    def joined(self, regions: tuple[str, ...], *, with_arcs: bool) -> JointBasis:
+        """Modes with a contact around some regions."""
+        used = tuple(r for r in regions if r in self.model.mesh.regions)
+        if (used, with_arcs) not in self._joints:
+            self._joints[used, with_arcs] = joint_basis(
+                self.model.mesh,
+                used,
+                self.reference,
+                self.ring.highest_hz,
+                self.orders,
+                with_arcs=with_arcs,
+            )
+        return self._joints[used, with_arcs]
 
     @cached_property
     def reference_keys(self) -> Mapping[ModeKey, StatorMode]:
@@ -156,5 +172,6 @@ def with_reference(stage: StageModel, materials: Materials) -> StageModel:
         reference=materials,
         _last={},
         _slopes={},
+        _joints={},
         kept_responses={},
     )

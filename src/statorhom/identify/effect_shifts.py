@@ -112,7 +112,7 @@ class EffectShifts:
         return found
 
     def _rated(
-        self, model: AffineModel, materials: Materials, highest_hz: float, orders: Sequence[int]
+        self, model: AffineModel[PartMesh], materials: Materials, highest_hz: float, orders: Sequence[int]
     ) -> dict[ModeKey, float]:
         """ln f of a stator whose moduli follow the frequency: where f of the moduli at f is f itself."""
         laws = {r: law for a in self.actions for r, law in a.modulus_at.items() if r in materials}

@@ -98,7 +98,7 @@ def fit_stage(
     problem : in the full space, without mesh factors.
     keys : method, evaluations and chains.
     refine : convergence study at given materials.
-    rebase : makes the reduced model anew where it is not certified at the optimum; None to keep it.
+    rebase : makes the reduced model anew where it is not certified at all optima; None to keep it.
     seed : of the search.
     workers : processes.
     progress : called with the evaluations spent.
@@ -113,6 +113,19 @@ def fit_stage(
         raise IdentificationError(
             "the stage has no mode to fit: give a free test modes that are not held out"
         )
+    starts = search(problem, keys, seed=seed, workers=workers, progress=progress)
+    return fit_from(problem, starts, keys.evaluations, refine, rebase, seed=seed, effects=effects)
+
+
+def search(
+    problem: StageProblem,
+    keys: IdentifyKeys,
+    *,
+    seed: int,
+    workers: Workers,
+    progress: Progress | None = None,
+) -> list[np.ndarray]:
+    """Coordinates (d,) that are worth a polish, by chains on the reduced model; see `fit_stage`."""
     coarse = replace(problem, space=search_space(problem.space)).coarse()
     found = find_optima(
         coarse,
@@ -126,9 +139,30 @@ def fit_stage(
     if not any(mode.order is not None for mode in problem.measured):
         found = distinct_optima([*found, *ranked_optima(coarse, seed=seed, workers=workers)])
     hopeful = [o for o in found[:MOST_STARTS] if o.value < found[0].value + HOPELESS]
-    starts = [problem.space.internal(coarse.space.values(o.x)) for o in hopeful]
+    return [problem.space.internal(coarse.space.values(o.x)) for o in hopeful]
+
+
+def fit_from(
+    problem: StageProblem,
+    starts: Sequence[np.ndarray],
+    evaluations: int,
+    refine: Refine,
+    rebase: Rebase | None = None,
+    *,
+    seed: int,
+    effects: Effects | None = None,
+) -> StageFit:
+    """Polish what a search has found, correct for the mesh, and draw intervals.
+
+    Parameters
+    ----------
+    problem : in the full space, without mesh factors.
+    starts : (d,) each, the most hopeful first.
+    evaluations : that the search has spent.
+    refine, rebase, seed, effects : see `fit_stage`.
+    """
     problem, convergence, optima = _sharpen(problem, starts, refine, rebase, effects)
-    return StageFit(problem, posterior(optima, problem.space, seed=seed), convergence, keys.evaluations)
+    return StageFit(problem, posterior(optima, problem.space, seed=seed), convergence, evaluations)
 
 
 def _sharpen(
@@ -144,7 +178,7 @@ def _sharpen(
     convergence: tuple[ModeConvergence, ...] = ()
     refined_at: np.ndarray | None = None
     for round_ in range(ROUNDS):
-        if rebase is not None and round_ < REBASED and not _certified(problem, optima[0].x):
+        if rebase is not None and round_ < REBASED and not _certified(problem, optima):
             problem = replace(problem, solver=rebase(problem, [o.x for o in optima]))
             optima, refined_at = _polish_all(problem, [o.x for o in optima]), None
         x = optima[0].x
@@ -163,8 +197,9 @@ def _sharpen(
     return problem, convergence, optima
 
 
-def _certified(problem: StageProblem, x: np.ndarray) -> bool:
-    return problem.solve(x).largest_certified_error <= TOLERANCE
+def _certified(problem: StageProblem, optima: Sequence[Optimum]) -> bool:
+    """Whether the reduced model is exact enough at every optimum, not only at the best one."""
+    return all(problem.solve(o.x).largest_certified_error <= TOLERANCE for o in optima)
 
 
 def _polish_all(problem: StageProblem, starts: Sequence[np.ndarray]) -> tuple[Optimum, ...]:

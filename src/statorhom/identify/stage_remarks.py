@@ -9,8 +9,10 @@ from statorhom.identify.mode_results import shared_shift, simulated_modes
 from statorhom.identify.model_error import DEFAULT_RELATIVE_SD
 from statorhom.identify.stage_materials import DENSITY
 from statorhom.identify.stage_run import StageRun
+from statorhom.identify.surface.summary import surface_warnings
 from statorhom.mesh.mirror_mesh import MirrorMesh
 from statorhom.results.schema import ModeResult
+from statorhom.study.response_surface import SurfaceKeys
 from statorhom.study.stages import StageKeys
 from statorhom.study.study import StudyFiles
 from statorhom.study.study_file import FREE
@@ -55,6 +57,9 @@ def warnings(run: StageRun, modes: Sequence[ModeResult]) -> list[str]:
             f"stage {run.setup.keys.name!r}: the declared model leaves {unexplained:.1f} % of the fitted frequencies "
             f"unexplained; the intervals were widened accordingly, but a physical effect may be missing"
         )
+    if run.surface is not None:
+        keys = run.setup.keys.identify.response_surface or SurfaceKeys()
+        found += surface_warnings(run.surface, keys, run.setup.keys.name)
     found += _rivals(run)
     for m in modes:
         if m.role == "unmatched" and m.measured_hz is not None:

@@ -15,6 +15,7 @@ from statorhom.identify.stage_materials import DENSITY
 from statorhom.identify.stage_remarks import assumptions, warnings
 from statorhom.identify.stage_run import StageRun
 from statorhom.identify.stage_setup import StageSetup
+from statorhom.identify.surface.summary import surface_summary
 from statorhom.materials.density import RegionDensity
 from statorhom.materials.plausibility import density_warning
 from statorhom.mesh.mirror_mesh import MirrorMesh
@@ -29,7 +30,9 @@ from statorhom.results.schema import (
     RegionResult,
     Sensitivity,
     StageResult,
+    SurfaceSummary,
 )
+from statorhom.study.response_surface import SurfaceKeys
 
 
 def mass_only(setup: StageSetup, before_kg: float, earlier: Mapping[str, RegionResult]) -> StageResult:
@@ -179,7 +182,13 @@ def _summary(run: StageRun, modes: Sequence[ModeResult]) -> FitSummary:
         reduced_basis_deviation_percent=100 * run.basis.deviation,
         unexplained_percent=100 * run.fit.problem.discrepancy,
         without_mesh_correction={n: plain[n] for n in new},
+        surface=_surface(run, modes),
     )
+
+
+def _surface(run: StageRun, modes: Sequence[ModeResult]) -> SurfaceSummary | None:
+    keys = run.setup.keys.identify.response_surface or SurfaceKeys()
+    return None if run.surface is None else surface_summary(run.surface, keys, modes)
 
 
 def _percent(part: float) -> float | None:

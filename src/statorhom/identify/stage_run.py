@@ -7,25 +7,32 @@ from dataclasses import dataclass, replace
 from statorhom.errors import IdentificationError
 from statorhom.identify.announce import Announce
 from statorhom.identify.bands import highest_hz, mode_names, named_spaces
-from statorhom.identify.basis_check import BasisCheck, check_basis
+from statorhom.identify.basis_check import BasisCheck, check_basis, together
 from statorhom.identify.effect_shifts import NO_EFFECTS, EffectShifts
 from statorhom.identify.fit_bases import FitBases
 from statorhom.identify.model_error import ModelError, model_error
 from statorhom.identify.optimizers.workers import Workers
+from statorhom.identify.parameters import ParameterSpace
 from statorhom.identify.polish import Optimum, polish
 from statorhom.identify.priors import Carried, common_space, stage_space
 from statorhom.identify.refinement import Band, MeshSeries
 from statorhom.identify.settings import Settings
-from statorhom.identify.stage_fit import StageFit, fit_stage, search_space
+from statorhom.identify.stage_basis import LOOK
+from statorhom.identify.stage_fit import StageFit, fit_from, search, search_space
 from statorhom.identify.stage_problem import StageProblem
 from statorhom.identify.stage_setup import StageSetup
+from statorhom.identify.surface.cube import Cube
+from statorhom.identify.surface.experiments import Experiments, FullModel
+from statorhom.identify.surface.search import SurfaceSearch, search_surface
+from statorhom.identify.surface.stator_model import stator_model
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.basis_store import BasisStore
 from statorhom.model.broken.named_response import Response
-from statorhom.model.convergence import ModeKey
+from statorhom.model.convergence import ModeConvergence, ModeKey
 from statorhom.model.free_modes import FreeModes
+from statorhom.study.response_surface import SurfaceKeys
 
 ModeName = tuple[int, int | None]  # order and node planes
 BAND_MARGIN = 1.15
@@ -46,9 +53,10 @@ class StageRun:
     solution : free modes of the fitting mesh at the optimum.
     error : mesh factors of the full model's modes.
     plain : the optimum that the fitting mesh alone would give, without mesh factors.
-    basis : the reduced model verified at the optimum.
+    basis : the reduced model verified on the full one at every optimum of the posterior.
     basis_error : largest certified relative frequency error of the reduced model where it was trained.
     effects : that the study declares.
+    surface : the search, where response surfaces did it.
     """
 
     setup: StageSetup
@@ -61,6 +69,7 @@ class StageRun:
     basis: BasisCheck
     basis_error: float
     effects: EffectShifts = NO_EFFECTS
+    surface: SurfaceSearch | None = None
 
 
 def run_stage(
@@ -105,7 +114,6 @@ def run_stage(
     problems = named_spaces(model.mesh, names)
     spread = common_space(*known) if settings.shared_bases else space
     bases = FitBases(model, problems, top, workers, announce, store, settings.shared_bases)
-    reduced = bases.over_prior(spread, setup.materials, typical)
     predicted = mode_names(model, typical, setup.free_modes, BAND_MARGIN)
     bands = _study_bands(setup, names, predicted, len(series.models))
     band = BAND_MARGIN * highest_hz(setup.free_modes)
@@ -113,19 +121,45 @@ def run_stage(
     def shifts(materials: Materials) -> dict[ModeKey, Response]:
         return effects.at(model, materials, band, sorted(bands))
 
+    def refine(materials: Materials) -> tuple[ModeConvergence, ...]:
+        return series.study(materials, bands, workers)
+
     error = ModelError(effects=shifts(typical))
-    problem = StageProblem(space, setup.materials, reduced, setup.fitted, error)
-    fit = fit_stage(
-        problem,
-        setup.keys.identify,
-        lambda materials: series.study(materials, bands, workers),
-        bases.around,
-        seed=settings.seed,
-        workers=workers,
-        progress=announce("search", setup.keys.identify.evaluations),
-        effects=shifts if effects.actions else None,
+    keys, acting = setup.keys.identify, shifts if effects.actions else None
+    surface: SurfaceSearch | None = None
+    if keys.method == "response_surface":
+        full = stator_model(model, typical, LOOK * top, sorted({order for order, _ in names}))
+        surface = _by_surface(setup, searched, full, error, settings.seed, workers, announce)
+        starts = surface.starts(space)
+        reduced = bases.around(surface.problem_over(space), starts)
+        problem = StageProblem(space, setup.materials, reduced, setup.fitted, error)
+        spent = surface.evaluations
+    else:
+        reduced = bases.over_prior(spread, setup.materials, typical)
+        problem = StageProblem(space, setup.materials, reduced, setup.fitted, error)
+        progress, spent = announce("search", keys.evaluations), keys.evaluations
+        starts = search(problem, keys, seed=settings.seed, workers=workers, progress=progress)
+    fit = fit_from(problem, starts, spent, refine, bases.around, seed=settings.seed, effects=acting)
+    run = _finished(setup, fit, series, sorted(bands), workers, effects)
+    return replace(run, surface=surface)
+
+
+def _by_surface(
+    setup: StageSetup,
+    searched: ParameterSpace,
+    full: FullModel,
+    error: ModelError,
+    seed: int,
+    workers: Workers,
+    announce: Announce,
+) -> SurfaceSearch:
+    keys = setup.keys.identify
+    surface = keys.response_surface or SurfaceKeys()
+    progress = announce("full solves of the design", surface.most_points)
+    experiments = Experiments(Cube(searched), setup.materials, full, workers, progress)
+    return search_surface(
+        experiments, setup.fitted, surface, error=error, evaluations=keys.evaluations, seed=seed
     )
-    return _finished(setup, fit, series, sorted(bands), workers, effects)
 
 
 def _study_bands(
@@ -153,6 +187,14 @@ def _finished(
     same = {c.key: c.frequency_hz[0] for c in fit.convergence}
     shifts = fit.problem.error.effects
     plain = polish(replace(fit.problem, error=ModelError(effects=shifts)), best)
+    # what is reported beside the best optimum is held against the full model as well
+    rivals = [
+        check_basis(
+            fit.problem.solve(part.optimum.x),
+            series.solution(fit.problem.stage_materials(part.optimum.x), band, orders, workers),
+        )
+        for part in fit.posterior.components[1:]
+    ]
     return StageRun(
         setup=setup,
         fit=fit,
@@ -161,7 +203,7 @@ def _finished(
         solution=solution,
         error=replace(model_error(fit.convergence, same), effects=shifts),
         plain=plain,
-        basis=check_basis(fit.problem.solve(best), solution),
+        basis=together([check_basis(fit.problem.solve(best), solution), *rivals]),
         basis_error=fit.problem.solver.error,
         effects=effects,
     )

@@ -2,6 +2,7 @@
 
 from statorhom.results.files import read_results, write_results
 from statorhom.results.schema import (
+    BandSummary,
     Constant,
     Convergence,
     FitSummary,
@@ -12,9 +13,12 @@ from statorhom.results.schema import (
     Results,
     Sensitivity,
     StageResult,
+    SurfaceSummary,
+    VerifiedMode,
 )
 
 __all__ = [
+    "BandSummary",
     "Constant",
     "Convergence",
     "FitSummary",
@@ -25,6 +29,8 @@ __all__ = [
     "Results",
     "Sensitivity",
     "StageResult",
+    "SurfaceSummary",
+    "VerifiedMode",
     "read_results",
     "write_results",
 ]

@@ -160,6 +160,14 @@ class MachineRow(_Part):
     slots: int
 
 
+class OptionRow(_Part):
+    """A measurement that could be made next: hours of work, and the log evidence that it is expected to bring."""
+
+    what: str
+    hours: float
+    log_evidence: float
+
+
 class RefittedRow(_Part):
     """A constant of the chain identified without and with what was left out."""
 
@@ -190,6 +198,14 @@ class ConstantRow(_Part):
     after_sd: float
 
 
+class SimplerRow(_Part):
+    """What simpler methods make of the same data (`statorhom.diagnose.simpler`)."""
+
+    modulus_alone_held_out_percent: float | None
+    all_constants_held_out_percent: float | None
+    by_criterion: tuple[ScanRow, ...] = ()
+
+
 class Details(_Part):
     """The numbers behind a diagnosis."""
 
@@ -212,8 +228,10 @@ class Details(_Part):
     maps: tuple[MapRow, ...] = ()
     opposite: tuple[OppositeRow, ...] = ()
     summaries: dict[str, str] = Field(default_factory=dict)
+    options: tuple[OptionRow, ...] = ()
     refitted: tuple[RefittedRow, ...] = ()
     refit_note: str | None = None
+    simpler: SimplerRow | None = None
 
 
 def write_diagnosis(diagnosis: Diagnosis, details: Details, folder: Path) -> Path:

@@ -98,6 +98,52 @@ class Optimum(_Frozen):
     probability: float
 
 
+class SurfaceRound(_Frozen):
+    """A design and how well its surfaces predicted points that they were not fitted to."""
+
+    points: int
+    largest_error_percent: float
+
+
+class VerifiedMode(_Frozen):
+    """A fitted mode's verified frequency against the measurement's confidence band."""
+
+    number: int
+    mode: str
+    measured_hz: float
+    low_hz: float
+    high_hz: float
+    verified_hz: float
+    inside: bool
+
+
+class BandSummary(_Frozen):
+    """Regression of the measured frequencies on the mode's number, and the verified ones against its band."""
+
+    degree: int
+    r_squared: float
+    confidence: float
+    modes: tuple[VerifiedMode, ...]
+
+
+class SurfaceSummary(_Frozen):
+    """Search by response surface: design, gate, Pareto front, verification."""
+
+    design: str
+    surface: str
+    rounds: tuple[SurfaceRound, ...]
+    check_points: int
+    limit_percent: float
+    passed: bool
+    errors_percent: dict[str, float]  # mode → largest error at the check points, of the last design
+    full_solves: int
+    objectives: tuple[str, ...]  # modes that the columns of the front are about
+    front_percent: tuple[tuple[float, ...], ...]
+    at_limits: tuple[str, ...] = ()  # constants that the search left at the end of their range
+    band: BandSummary | None = None
+    band_remark: str | None = None  # why there is none
+
+
 class FitSummary(_Frozen):
     """How a stage was fitted."""
 
@@ -113,6 +159,7 @@ class FitSummary(_Frozen):
     unexplained_percent: float = 0.0
     shared_shift_percent: dict[str, float] = Field(default_factory=dict)
     without_mesh_correction: dict[str, float] = Field(default_factory=dict)
+    surface: SurfaceSummary | None = None
 
 
 class CarriedParameter(_Frozen):

@@ -12,6 +12,7 @@ from statorhom.study.frozen_map import FrozenMap
 from statorhom.study.keys import Keys, Name, Number, Positive, WholeNumber
 from statorhom.study.modal_tests import ModalTestKeys
 from statorhom.study.regions import REGIONS, Region, StageKind, Symmetry
+from statorhom.study.response_surface import SurfaceKeys
 
 
 class ModelKeys(Keys):
@@ -58,15 +59,26 @@ class IdentifyKeys(Keys):
     """``[stages.identify]``: how the constants of this stage are sought.
 
     ``fixed`` gives constants a value, ``tied`` lists groups of constants that share one value, ``prior``
-    replaces typical ranges; all three by region and by the constants' names.
+    replaces typical ranges; all three by region and by the constants' names. ``response_surface`` belongs to the
+    method of that name.
     """
 
-    method: Literal["annealing", "threshold"] = "annealing"
+    method: Literal["annealing", "threshold", "response_surface"] = "annealing"
     evaluations: Annotated[WholeNumber, Field(ge=1, le=10_000_000)] = 4000
     chains: Annotated[WholeNumber, Field(ge=1, le=256)] = 4
     fixed: Fixed = FrozenMap({})
     tied: Tied = FrozenMap({})
     prior: Priors = FrozenMap({})
+    response_surface: SurfaceKeys | None = None
+
+    @model_validator(mode="after")
+    def _one_method(self) -> IdentifyKeys:
+        if self.response_surface is not None and self.method != "response_surface":
+            raise ValueError(
+                f'response_surface: belongs to another method than "{self.method}"; write method = "response_surface" '
+                "or leave it out"
+            )
+        return self
 
 
 class StageKeys(Keys):

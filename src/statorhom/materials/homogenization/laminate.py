@@ -9,6 +9,7 @@ import numpy as np
 
 from statorhom.errors import MaterialError
 from statorhom.materials.hooke import Hooke
+from statorhom.materials.lamina import check_angle
 from statorhom.materials.rotation import Array
 
 # Voigt components in the plane of the plies (11, 22, 12) and through their thickness (33, 23, 13)
@@ -26,12 +27,12 @@ class Ply:
         In the ply's own axes.
     thickness_m : float
     angle_deg : float
-        From the laminate's axis 1 to the ply's axis 1, towards axis 2.
+        From the laminate's axis 1 to the ply's axis 1, towards axis 2; −90 … 90.
 
     Raises
     ------
     MaterialError
-        The thickness is not positive.
+        The thickness is not positive, or the angle lies outside.
     """
 
     hooke: Hooke
@@ -41,6 +42,7 @@ class Ply:
     def __post_init__(self) -> None:
         if not 0.0 < self.thickness_m < np.inf:
             raise MaterialError(f"ply: thickness_m must be positive and finite, is {self.thickness_m:.6g}")
+        check_angle(self.angle_deg)
 
     def turned(self) -> Hooke:
         """Return the ply's stiffness in the laminate's axes."""
@@ -64,6 +66,26 @@ class PlateStiffness:
     def __post_init__(self) -> None:
         for matrix in (self.A, self.B, self.D):
             matrix.flags.writeable = False
+
+    @property
+    def K(self) -> Array:
+        """(6, 6): forces and moments per width from strains and curvatures of the middle plane."""
+        return np.block([[self.A, self.B], [self.B, self.D]])
+
+    def in_plane(self, thickness_m: float) -> tuple[float, float, float, float]:
+        """E₁, E₂ and G₁₂ (Pa) and ν₁₂ of a symmetric laminate that is pulled in its plane.
+
+        Raises
+        ------
+        MaterialError
+            The laminate couples pulling and bending: it has no such constants.
+        """
+        if np.abs(self.B).max() > 1e-9 * np.abs(self.A).max() * thickness_m:
+            raise MaterialError(
+                "laminate: bends when it is pulled; only a symmetric one has moduli in its plane"
+            )
+        a = np.linalg.inv(self.A) * thickness_m
+        return float(1 / a[0, 0]), float(1 / a[1, 1]), float(1 / a[2, 2]), float(-a[0, 1] / a[0, 0])
 
 
 def plate_stiffness(plies: Sequence[Ply]) -> PlateStiffness:

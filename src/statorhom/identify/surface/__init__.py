@@ -1,0 +1,1 @@
+"""Response surfaces: designs of experiments, surfaces, the gate that they must pass, the search on them."""
