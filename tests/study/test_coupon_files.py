@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from coupon_study import BEAM, PLATE, TUBE, study_text, write_study
 
+from coupon_study import BEAM, PLATE, TUBE, study_text, write_study
 from statorhom.errors import InputFileError
 from statorhom.study.coupon_file import BeamFile, PlateFile, TubeFile
 from statorhom.study.object_file import read_object
