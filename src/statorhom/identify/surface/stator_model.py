@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.free_modes import FreeProblem, problem_at
 from statorhom.model.stator_mode import StatorMode
@@ -47,7 +48,7 @@ class StatorModel:
     most : lowest modes of each harmonic problem.
     """
 
-    model: AffineModel
+    model: AffineModel[PartMesh]
     typical: Materials
     highest_hz: float
     orders: tuple[int, ...]
@@ -67,7 +68,7 @@ class StatorModel:
 
 
 def stator_model(
-    model: AffineModel, typical: Materials, highest_hz: float, orders: Sequence[int]
+    model: AffineModel[PartMesh], typical: Materials, highest_hz: float, orders: Sequence[int]
 ) -> StatorModel:
     """Model whose modes cover the band at the typical material and all that moves into it elsewhere."""
     solution = problem_at(model, typical).solve(highest_hz, orders)
