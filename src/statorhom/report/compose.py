@@ -18,6 +18,7 @@ from statorhom.report.sections.sensitivity import sensitivity
 from statorhom.report.sections.shapes import shapes
 from statorhom.report.sections.spectra import spectra
 from statorhom.report.sections.summary import summary
+from statorhom.report.sections.surface import surface
 from statorhom.results import Results
 from statorhom.study.message import one_line
 
@@ -39,6 +40,7 @@ def compose(results: Results, folder: Path) -> Document:
         shapes(steps),
         spectra(steps),
         mesh(steps),
+        surface(steps),
         sensitivity(steps),
         damping(steps),
         assumptions(steps),
