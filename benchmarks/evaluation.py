@@ -32,8 +32,10 @@ from statorhom.identify.stage_materials import StageMaterials
 from statorhom.identify.stage_setup import analytic_values, stage_setup
 from statorhom.identify.training import REACH, training_materials
 from statorhom.model.affine import AffineModel, Materials
-from statorhom.model.eigen import modes_below
-from statorhom.model.harmonic import Harmonic, all_orders, harmonic_spaces
+from statorhom.model.cyclic.half_pitch import half_pitches
+from statorhom.model.cyclic.modes import modes_of
+from statorhom.model.harmonic import Harmonic, all_orders, harmonic_spaces, spaces_of
+from statorhom.model.pitch_parts import pitch_parts
 from statorhom.model.reduced import MaterialBox, ReducedHarmonic, material_box, reduce_harmonic
 from statorhom.model.reduced_stator import ReducedStator, reduced_stator
 from statorhom.study.atomic import write_text
@@ -93,14 +95,16 @@ def _build(task: tuple[AffineModel, Harmonic, MaterialBox], tick: Tick) -> Reduc
     return reduce_harmonic(*task, TOP_HZ, SHARED.tolerance)
 
 
-def _exact(task: tuple[AffineModel, Harmonic, list[Materials]], tick: Tick) -> list[np.ndarray]:
-    """Eigenvalues of a harmonic's full model at all materials."""
-    model, harmonic, several = task
+def _exact(task: tuple[AffineModel, list[Materials]], tick: Tick) -> list[list[np.ndarray]]:
+    """Eigenvalues of all harmonic problems of the full model, per material."""
+    model, several = task
     tick()
+    parts = pitch_parts(model.mesh)
+    spaces = [space for order in all_orders(model.mesh.slots) for space in spaces_of(parts, order)]
     found = []
     for materials in several:
         K, M = model.stiffness_matrix(materials), model.mass_matrix(materials)
-        found.append(modes_below(harmonic.project(K), harmonic.project(M), TOP_HZ)[0])
+        found.append([values for values, _ in modes_of(half_pitches(parts, K, M), spaces, TOP_HZ)])
     return found
 
 
@@ -142,8 +146,8 @@ def errors(
         for batch, pairs, bounds in zip(solution.batches, solution.pairs, solution.certificates, strict=True):
             for row, problem in enumerate(batch.problems):
                 # a mode within the error of the band's end may be in the one and not in the other
-                shared = min(len(exact[problem][number]), pairs.counts[row])
-                values, found = exact[problem][number][:shared], pairs.values[row, :shared]
+                shared = min(len(exact[number][problem]), pairs.counts[row])
+                values, found = exact[number][problem][:shared], pairs.values[row, :shared]
                 moving = values > (2 * np.pi * LEAST_HZ) ** 2
                 true += (np.sqrt(found[moving] / values[moving]) - 1).tolist()
                 certified += bounds[row, :shared][moving].tolist()
@@ -179,8 +183,9 @@ def measured_step(study: Study, name: str, points: int, jobs: int, cells: int) -
         build = time.perf_counter() - begin
         stator = reduced_stator(model, box, problems, TOP_HZ, typical)
         begin = time.perf_counter()
-        exact = workers.map(_exact, [(model, s, several) for s in spaces])
+        shares = workers.map(_exact, [(model, several[i::jobs]) for i in range(jobs)])
         full = (time.perf_counter() - begin) / points
+    exact = [shares[i % jobs][i // jobs] for i in range(points)]
     sizes = [c.basis.shape[1] for p in problems for c in p.cells]
     with threadpool_limits(limits=1, user_api="blas"):
         limited = timed(stator, several)

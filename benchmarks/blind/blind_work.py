@@ -82,7 +82,7 @@ def diagnose(work: Work, case: BlindCase) -> str | None:
     if (folder / "run.json").exists() or not work.truth(case).exists():
         return None
     command = [sys.executable, "-c", "from statorhom.cli import main; main()"]
-    options = ["diagnose", str(work.case(case) / "study.toml"), "--out", str(folder)]
+    options = ["diagnose", str(work.case(case) / "study.toml"), "--out", str(folder), "--jobs", "1"]
     begin = time.perf_counter()
     try:
         done = subprocess.run(

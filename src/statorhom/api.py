@@ -137,6 +137,7 @@ class Study:
         out: str | os.PathLike[str] | None = None,
         *,
         seed: int = 1,
+        jobs: int = 1,
         apply: bool = False,
         announce: Announce = silent,
     ) -> Diagnosis:
@@ -150,7 +151,8 @@ class Study:
             If files, masses or tests do not allow it.
         """
         folder = self.default_folder if out is None else Path(out)
-        found, _ = diagnose_study(self.files, folder, Settings(seed=seed), announce, apply=apply)
+        settings = Settings(seed=seed, jobs=jobs)
+        found, _ = diagnose_study(self.files, folder, settings, announce, apply=apply)
         write_report(folder)
         return found
 

@@ -131,6 +131,7 @@ def diagnose(
         bool, typer.Option("--apply", help="Also write study.toml with the named effect modelled.")
     ] = False,
     seed: Seed = 1,
+    jobs: Jobs = PROCESSORS,
     json: Json = False,
 ) -> None:
     """Say what physics the model left out, where, and how sure that is; writes diagnosis.json and report.html."""
@@ -139,7 +140,7 @@ def diagnose(
 
     loaded = Study.load(study)
     with progress_bars(quiet=json) as announce:
-        found = loaded.diagnose(out, seed=seed, apply=apply, announce=announce)
+        found = loaded.diagnose(out, seed=seed, jobs=jobs, apply=apply, announce=announce)
     if json:
         typer.echo(found.model_dump_json(by_alias=True))
     else:

@@ -12,7 +12,7 @@ import pandas as pd
 from threadpoolctl import threadpool_limits
 
 from statorhom.errors import InputFileError
-from statorhom.geometry.stator import stator_geometry
+from statorhom.geometry.tested_object import object_geometry
 from statorhom.identify.bands import LEAST_VISIBLE, highest_hz
 from statorhom.identify.effect_shifts import effect_shifts
 from statorhom.identify.model_error import ModelError, model_error
@@ -20,13 +20,14 @@ from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.priors import Carried, stage_space
 from statorhom.identify.refinement import Band, MeshSeries
 from statorhom.identify.settings import Settings
-from statorhom.identify.simulated_shapes import mode_shape, shape_grid
 from statorhom.identify.stage_materials import StageMaterials
 from statorhom.identify.stage_problem import CorrectedMode, corrected
 from statorhom.identify.stage_run import PREDICTED_MESHES, PREDICTED_MODES
 from statorhom.identify.stage_setup import StageSetup, TestModes, stage_setup
+from statorhom.identify.stage_shapes import shape_file
 from statorhom.materials.hooke import Hooke
-from statorhom.model.affine import AffineModel, Material, Materials
+from statorhom.mesh.hex_mesh import PartMesh
+from statorhom.model.affine import AffineModel, Material, Materials, stator_model
 from statorhom.model.free_modes import FreeModes, solve_free
 from statorhom.model.supported_modes import solve_supported
 from statorhom.model.supports import support_on
@@ -34,7 +35,7 @@ from statorhom.modes.mode_protocols import LabelledMode
 from statorhom.modes.supported_names import SupportedMode, name_supported
 from statorhom.results.files import check_folder, earlier_stages
 from statorhom.results.schema import RegionResult
-from statorhom.results.shape_file import ShapeFile, write_shape_file
+from statorhom.results.shape_file import write_shape_file
 from statorhom.study.atomic import write_text
 from statorhom.study.study import StudyFiles, load_study
 from statorhom.study.supports import SupportKeys
@@ -66,7 +67,7 @@ def simulate_study(path: Path, stage: str | None, out: Path | None) -> tuple[Pat
     """
     files = load_study(path)
     folder = files.path.parent / f"{files.study.name}-results" if out is None else out
-    geometry = stator_geometry(files.geometry, files.geometry_path)
+    geometry = object_geometry(files.drawing, files.geometry_path)
     identified = _identified(folder, files.study.name)
     _check_stage(files, stage)
     setups = [stage_setup(files, geometry, index) for index in range(len(files.study.stages))]
@@ -142,7 +143,9 @@ def _simulate(
         support = files.study.support(test.support)
         modes: Sequence[LabelledMode] = free
         if support is not None:
-            modes = _supported(series.coarsest, effects.materials(materials), support, test, error)
+            modes = _supported(
+                stator_model(series.coarsest), effects.materials(materials), support, test, error
+            )
         rows += [_row(setup, test.name, i, mode) for i, mode in enumerate(modes, start=1)]
     return rows
 
@@ -194,9 +197,7 @@ def _row(setup: StageSetup, test: str, number: int, mode: LabelledMode) -> dict[
     }
 
 
-def _write_shapes(setup: StageSetup, model: AffineModel, solution: FreeModes, folder: Path) -> None:
-    grid = shape_grid(model.mesh)
-    visible = [mode for mode in solution.modes if mode.order is not None][:PICTURES]
-    shapes = tuple(mode_shape(grid, solution, mode) for mode in visible)
+def _write_shapes(setup: StageSetup, model: AffineModel[PartMesh], solution: FreeModes, folder: Path) -> None:
+    visible = [mode for mode in solution.modes if mode.family is not None][:PICTURES]
     name = f"simulated-{setup.index + 1}-{setup.keys.name}.npz"
-    write_shape_file(folder / "shapes" / name, ShapeFile(model.mesh, grid.planes, shapes))
+    write_shape_file(folder / "shapes" / name, shape_file(model, solution, visible))

@@ -14,7 +14,9 @@ from statorhom.diagnose.refit import Refit
 
 def explanation(constant: float, magnitude: float) -> Explanation:
     """Ten features that are met to 8 units of squared residual; a constant and an effect's magnitude."""
-    hypothesis = SimpleNamespace(constants=1, prior_weights=np.ones(2), missed=3.0)
+    hypothesis = SimpleNamespace(
+        constants=1, prior_weights=np.ones(2), missed=3.0, residuals=lambda z: np.full(10, np.sqrt(0.8))
+    )
     objective = 8.0 + 3.0 + constant**2 + magnitude**2
     refit = Refit(hypothesis, np.array([constant, magnitude]), np.zeros((10, 2)), 8.0, objective)  # type: ignore[arg-type]
     return Explanation((), refit, 0.0)
@@ -26,3 +28,31 @@ def test_a_large_effect_is_no_misfit() -> None:
 
 def test_an_implausible_constant_is_one() -> None:
     assert explanation(6.0, 0.0).adequacy == pytest.approx(float(chi2.sf(44.0, 10)))
+
+
+def with_residuals(residuals: list[float]) -> Explanation:
+    """No constants at all."""
+    r = np.array(residuals)
+    hypothesis = SimpleNamespace(constants=0, prior_weights=np.zeros(0), missed=0.0, residuals=lambda z: r)
+    misfit = float(r @ r)
+    refit = Refit(hypothesis, np.zeros(0), np.zeros((len(r), 0)), misfit, misfit)  # type: ignore[arg-type]
+    return Explanation((), refit, 0.0)
+
+
+def test_one_gross_row_is_no_inadequacy_but_two_are() -> None:
+    good = [0.5, -1.0, 1.2, 0.3, -0.8, 1.5, -0.2, 0.9, -1.1]
+    one, two = with_residuals([*good, 11.0]), with_residuals([*good, 11.0, -9.0])
+    assert one.adequacy < 1e-6 < 0.01 < one.adequacy_but_one
+    assert two.adequacy_but_one < 0.01
+
+
+def test_of_few_rows_none_is_set_aside() -> None:
+    few = with_residuals([0.1, 0.2, 11.0])
+    assert few.adequacy_but_one == few.adequacy < 1e-6
+
+
+def test_the_rest_is_held_to_its_own_distribution() -> None:
+    """Of pure noise the same share is inadequate with and without the worst row."""
+    rng = np.random.default_rng(3)
+    chances = [with_residuals(rng.standard_normal(12).tolist()).adequacy_but_one for _ in range(200)]
+    assert np.mean(np.array(chances) < 0.1) == pytest.approx(0.1, abs=0.06)

@@ -90,9 +90,7 @@ def test_the_gate_enlarges_the_design_until_it_predicts(laboratory):
 
 
 def test_where_no_more_points_are_allowed_the_gate_says_so(laboratory):
-    found = searched(
-        laboratory, surface="polynomial", points=4, largest_error_percent=0.001, most_points=8
-    )
+    found = searched(laboratory, surface="polynomial", points=4, largest_error_percent=0.001, most_points=8)
     assert not found.gate.passed
     assert [r.points for r in found.gate.rounds] == [4, 8]
 

@@ -72,12 +72,12 @@ def test_cannot_be_changed(folder: Any) -> None:
         (
             'name = "small ring"',
             'name = "x"\nkind = "wing"',
-            ['kind = "wing" cannot be computed yet', 'use a geometry of kind = "stator"'],
+            ["a wing is no stator", 'use simulate, fit, run or report, or a geometry of kind = "stator"'],
         ),
         (
             'name = "small ring"',
             'name = "x"\nkind = "plate"\nplate = { length_mm = 300.0 }',
-            ['kind = "plate" cannot be computed yet'],
+            ["a plate is no stator"],
         ),
         ('name = "small ring"', 'name = "x"\nkind = "rotor"', ['kind: "rotor" is not one of stator']),
         ("[winding]", "[windings]", ['unknown key "windings"', 'did you mean "winding"?']),

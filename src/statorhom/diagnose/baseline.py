@@ -45,11 +45,13 @@ class Baseline:
     free : where the free tests put the constants: a support is known worse than a material, and a wrong one would
         draw them away. Explanations are sought from here.
     refit : optimum over all tests.
+    valleys : constants at other optima, of the last step's search.
     """
 
     study: StudyModel
     free: Refit
     refit: Refit
+    valleys: tuple[np.ndarray, ...] = ()
 
 
 def baseline(
@@ -72,14 +74,17 @@ def baseline(
     if not tested:
         raise IdentificationError(f"{files.path}: no stage has a test; there is nothing to diagnose")
     orders = sorted({m.order for t in tests.values() for m in t.modes if m.order is not None and m.order > 0})
-    constants = study_constants(setups, [r for r in orders if r <= MAX_SCATTER_ORDER], SCATTER_SD)
+    damped = any(m.loss_factor is not None for t in tests.values() for m in t.modes)
+    split = [r for r in orders if r <= MAX_SCATTER_ORDER]
+    constants = study_constants(setups, split, SCATTER_SD, with_losses=damped)
     effects = tuple(d.action for d in declared_effects(files))
     study = StudyModel(files, geometry, constants, (), effects)
     z = np.zeros(len(constants))
+    valleys: tuple[np.ndarray, ...] = ()
     for setup in tested:
         own = [tests[t.name] for t in setup.tests if t.name in tests]
         own = [t for t in own if t.support == FREE] or own
-        study, z = _with_step(study, z, setup, own, settings)
+        study, z, valleys = _with_step(study, z, setup, own, settings)
     z = refit(Hypothesis(study), z).z
     whole = study.with_stages(
         tuple(
@@ -89,20 +94,20 @@ def baseline(
     )
     free = evaluated(Hypothesis(whole), z)
     same = all(t.support == FREE for s in whole.stages for t in s.tests)
-    return Baseline(whole, free, free if same else refit(Hypothesis(whole), z))
+    return Baseline(whole, free, free if same else refit(Hypothesis(whole), z), valleys)
 
 
 def _with_step(
     study: StudyModel, z: np.ndarray, setup: StageSetup, tests: Sequence[MeasuredTest], settings: Settings
-) -> tuple[StudyModel, np.ndarray]:
-    """One more step: its constants from the best of many starts."""
+) -> tuple[StudyModel, np.ndarray, tuple[np.ndarray, ...]]:
+    """One more step: its constants from the best of many starts; the other optima."""
     places = _new_constants(study.constants, setup)
     trials = _trials(z, places, settings.seed)
     snapshots = _materials(study, setup, trials)[:SNAPSHOTS]
     stage = stage_model(setup, tests, snapshots, settings.density)
     study = study.with_stages((*study.stages, stage))
     # constants of earlier steps stay while new ones are sought
-    found = _best(study, trials)
+    found, *others = _optima(study, trials)
     for number in range(ROUNDS):
         stage = study.stages[-1]
         materials = acted_materials(study, stage, study.constants.values(found.z), study.effects)
@@ -115,7 +120,7 @@ def _with_step(
         found = refit(Hypothesis(study), found.z)
         if number > 0 and moved < SAME_HZ:
             break
-    return study, found.z
+    return study, found.z, tuple(r.z for r in others)
 
 
 def _frequencies(stage: StageModel, materials: Materials) -> dict[int, float]:
@@ -160,8 +165,8 @@ def _materials(study: StudyModel, setup: StageSetup, points: Sequence[np.ndarray
     return found
 
 
-def _best(study: StudyModel, trials: Sequence[np.ndarray]) -> Refit:
-    """The best optimum: found in wide valleys first, then sharpened."""
+def _optima(study: StudyModel, trials: Sequence[np.ndarray]) -> list[Refit]:
+    """Different optima, the best first: found in wide valleys, then sharpened."""
     coarse = Hypothesis(study, discrepancy=COARSE)
     scored = []
     for z in trials:
@@ -176,7 +181,12 @@ def _best(study: StudyModel, trials: Sequence[np.ndarray]) -> Refit:
     found = [r for w in wide[:SHARPENED] if (r := _refitted(Hypothesis(study), w.z)) is not None]
     if not found:
         raise IdentificationError("no start of the declared model could be fitted; check masses and tables")
-    return min(found, key=lambda r: r.objective)
+    found.sort(key=lambda r: r.objective)
+    chosen: list[Refit] = []
+    for r in found:
+        if all(np.linalg.norm(r.z - other.z) > APART for other in chosen):
+            chosen.append(r)
+    return chosen
 
 
 def _apart(points: Sequence[np.ndarray]) -> list[np.ndarray]:

@@ -21,6 +21,9 @@ from statorhom.identify.stage_setup import StageSetup
 
 FloatArray = npt.NDArray[np.float64]
 _Z90 = 1.6448536269514722
+# typical loss factors (5 %, 95 %): bare steel and what is joined to it; wires, dry or in resin
+STEEL_LOSS, WINDING_LOSS = (5e-4, 2e-2), (2e-3, 1e-1)
+LOSS_LIMITS = (1e-6, 2.0)
 
 
 @dataclass(frozen=True)
@@ -29,7 +32,7 @@ class Constant:
 
     Parameters
     ----------
-    name : "stage:source.constant", "stage:mass_kg", "stage:mesh" or "scatter r re/im".
+    name : "stage:source.constant", "stage:mass_kg", "stage:mesh", "stage:loss source" or "scatter r re/im".
     median, sd : of the normal prior, of the logarithm where `log`.
     lower, upper : limits of the value.
     log : scale of the prior.
@@ -66,10 +69,12 @@ class Constants:
     ----------
     items : in the order of the vector.
     owners : per stage: constant as the stage's materials name it → name of the coordinate.
+    losses : per stage: source of a region's material → name of its loss factor; empty where no damping was measured.
     """
 
     items: tuple[Constant, ...]
     owners: tuple[Mapping[str, str], ...]
+    losses: tuple[Mapping[str, str], ...] = ()
 
     def __len__(self) -> int:
         return len(self.items)
@@ -94,7 +99,9 @@ class Constants:
         return pairs[:, 0], pairs[:, 1]
 
 
-def study_constants(setups: Sequence[StageSetup], orders: Sequence[int], scatter_sd: float) -> Constants:
+def study_constants(
+    setups: Sequence[StageSetup], orders: Sequence[int], scatter_sd: float, *, with_losses: bool = False
+) -> Constants:
     """Coordinates of all steps.
 
     Parameters
@@ -102,10 +109,13 @@ def study_constants(setups: Sequence[StageSetup], orders: Sequence[int], scatter
     setups : the steps.
     orders : circumferential orders whose doublets manufacturing scatter splits.
     scatter_sd : of the real and of the imaginary part of their relative split.
+    with_losses : whether loss factors were measured.
     """
     items: list[Constant] = []
     owners: list[dict[str, str]] = []
     known: dict[str, str] = {}
+    damped: dict[str, str] = {}
+    losses: list[Mapping[str, str]] = []
     for setup in setups:
         stage = setup.keys.name
         items.append(_weight(stage, setup.keys.mass_kg, setup.keys.mass_sd_kg))
@@ -120,14 +130,28 @@ def study_constants(setups: Sequence[StageSetup], orders: Sequence[int], scatter
             items.append(Constant(f"{stage}:mesh", 0.0, 1.0, -5.0, 5.0))
         used = {n for region in setup.materials.regions for n in region.names}
         owners.append({n: known[n] for n in used if n in known})
+        sources = (
+            {region.source for region in setup.materials.regions} if with_losses and setup.tests else set()
+        )
+        for source in sorted(sources):
+            if source in setup.new or source not in damped:
+                damped = {**damped, source: f"{stage}:loss {source}"}
+                items.append(_loss(damped[source], source))
+        losses.append({source: damped[source] for source in sources})
     items += [
         Constant(f"scatter {r} {part}", 0.0, scatter_sd, -1.0, 1.0) for r in orders for part in ("re", "im")
     ]
-    return Constants(tuple(items), tuple(owners))
+    return Constants(tuple(items), tuple(owners), tuple(losses))
 
 
 def _weight(stage: str, mass_kg: float, sd_kg: float) -> Constant:
     return Constant(f"{stage}:mass_kg", mass_kg, sd_kg, 0.01 * mass_kg, 100 * mass_kg)
+
+
+def _loss(name: str, source: str) -> Constant:
+    low, high = WINDING_LOSS if source in ("winding", "overhang") else STEEL_LOSS
+    spread = math.log(high / low) / (2 * _Z90)
+    return Constant(name, math.sqrt(low * high), spread, *LOSS_LIMITS, log=True)
 
 
 def _constant(name: str, p: Parameter) -> Constant:

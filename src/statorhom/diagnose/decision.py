@@ -29,8 +29,8 @@ class Evidence:
     p_value : of the scan's maximum.
     over_nothing, over_others : log evidence of the best explanation over "nothing" and over the next one.
     held_out : errors on modes that were not seen; None where there were too few.
-    adequacy : posterior-predictive p of the best explanation.
-    nothing_adequacy : and of the declared model.
+    adequacy : posterior-predictive p of the best explanation, one gross error aside.
+    nothing_adequacy : and of the declared model, with every row.
     within : whether all magnitudes lie inside their physical ranges, off the bounds.
     stability : share of resamplings with the same winner.
     rivals : number of other sound explanations that the evidence does not tell from the best one.
@@ -81,7 +81,7 @@ def decide(evidence: Evidence) -> Verdict:
 
 def is_sound(explanation: Explanation) -> bool:
     """Rule 4 for any explanation."""
-    return explanation.adequacy > ADEQUATE and within_bounds(explanation)
+    return explanation.adequacy_but_one > ADEQUATE and within_bounds(explanation)
 
 
 def within_bounds(explanation: Explanation) -> bool:

@@ -15,7 +15,12 @@ import numpy.typing as npt
 from statorhom.diagnose.features import Feature
 from statorhom.diagnose.frequency_slopes import STEP, by_frequency, concerns, slopes_of
 from statorhom.diagnose.hypothesis import Hypothesis, Told
-from statorhom.diagnose.prediction import PredictedMode, acted_materials, material_vector
+from statorhom.diagnose.prediction import (
+    PredictedMode,
+    acted_materials,
+    material_vector,
+    slopes_by_materials,
+)
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.errors import StatorhomError
 from statorhom.model.convergence import ModeKey
@@ -89,7 +94,7 @@ def _moved(
             parts = [acted_materials(h.study, stage, v, actions, test) for v in (before, after)]
             regions = tuple(parts[0])
             change = material_vector(parts[1], regions) - material_vector(parts[0], regions)
-            slopes = stage.slopes(parts[0], modes)
+            slopes = slopes_by_materials(stage, parts[0], modes)
             mesh = after[f"{stage.name}:mesh"] - before[f"{stage.name}:mesh"]
             new[test] = dict(modes) | {
                 key: replace(modes[key], log_f=modes[key].log_f + slope @ change + mesh * modes[key].shared)

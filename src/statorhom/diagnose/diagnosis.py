@@ -22,17 +22,17 @@ from statorhom.diagnose.decision import (
 )
 from statorhom.diagnose.explanations import (
     ADEQUATE,
+    WORTH,
     Explanation,
     effect_evidence,
     nothing,
-    sharpened,
     single_effects,
     with_second,
 )
 from statorhom.diagnose.held_out import HeldOut, held_out
 from statorhom.diagnose.held_out_name import held_out_names, renames_alone
 from statorhom.diagnose.measured import MeasuredTest
-from statorhom.diagnose.next_measurement import next_measurement
+from statorhom.diagnose.next_measurement import Choice, next_measurement
 from statorhom.diagnose.one_line_errors import one_line_errors
 from statorhom.diagnose.place_rows import angle_rows, machine_row, map_rows, opposite_rows, summaries
 from statorhom.diagnose.report_rows import (
@@ -44,7 +44,8 @@ from statorhom.diagnose.report_rows import (
     mismatch,
 )
 from statorhom.diagnose.resampling import stability
-from statorhom.diagnose.scan import Scan, scan
+from statorhom.diagnose.scan import Scan, rescanned, scan
+from statorhom.diagnose.sharper import refined, sharpened
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.settings import Settings
@@ -96,8 +97,12 @@ def diagnose(
     began = time.perf_counter()
     with threadpool_limits(limits=1, user_api="blas"), one_line_errors(str(files.path)):
         found = _find(files, geometry, tests, settings, announce)
-        diagnosis = _diagnosis(files, found)
-        details = _details(files, found, time.perf_counter() - began)
+        undecided = found.verdict == "ambiguous"
+        choice = (
+            next_measurement(found.best, others(found.best, found.explanations)) if undecided else Choice()
+        )
+        diagnosis = _diagnosis(files, found, choice)
+        details = _details(files, found, choice, time.perf_counter() - began)
         named = as_declared(found.best) if found.verdict == "named" else ()
     return diagnosis, details, named
 
@@ -120,11 +125,9 @@ def _find(
     progress = announce("explanations", 1)
     found = single_effects(base.free, signatures, [c for c in candidates if not c.parameters], counts)
     if found and found[0].adequacy < ADEQUATE:
-        used = found[0].effects
-        second = [s for s in signatures.worth_refitting(SECONDS, 0.0) if s.candidate.effect not in used]
-        pairs = with_second(found[0], second[:SECONDS], counts)
-        found += [p for p in pairs if p.log_evidence > found[0].log_evidence + PAIR_GAIN]
-        found.sort(key=lambda e: -e.log_evidence)
+        found = refined(found, base.valleys, counts)
+    if found and found[0].adequacy < ADEQUATE:
+        found = _pairs(base, found, signatures, counts) + found
     progress(1)
     none = nothing(base.refit)
     best = found[0] if found else none
@@ -133,6 +136,22 @@ def _find(
         best = replace(sharpened(best), log_evidence=best.log_evidence)
     evidence = _evidence(base, best, none, found, signatures, settings.seed)
     return Found(decide(evidence), best, tuple(found), signatures, evidence, base)
+
+
+def _pairs(
+    base: Baseline, found: Sequence[Explanation], signatures: Scan, counts: dict[str, int]
+) -> list[Explanation]:
+    """The best explanation with one more effect, the best first; none where modes that it did not see contradict."""
+    first = found[0]
+    left = rescanned(signatures, base.free, first.refit).worth_refitting(SECONDS, WORTH)
+    second = [s for s in left if s.candidate.effect not in first.effects]
+    pairs = with_second(first, second[:SECONDS], counts)
+    pairs = [p for p in pairs if p.log_evidence > first.log_evidence + PAIR_GAIN]
+    if not pairs:
+        return []
+    # both effects have to hold: the second one against the first alone
+    unseen = held_out(first.refit, pairs[0])
+    return pairs if unseen.falls and not unseen.worsens else []
 
 
 def _evidence(
@@ -161,7 +180,7 @@ def _evidence(
         over_nothing=over,
         over_others=float(own - next_best) if np.isfinite(next_best) else float("inf"),
         held_out=unseen,
-        adequacy=best.adequacy,
+        adequacy=best.adequacy_but_one,
         nothing_adequacy=none.adequacy,
         within=within_bounds(best),
         stability=stability([common, none, *rest[: COMPARED - 2]], seed),
@@ -169,7 +188,7 @@ def _evidence(
     )
 
 
-def _diagnosis(files: StudyFiles, found: Found) -> Diagnosis:
+def _diagnosis(files: StudyFiles, found: Found, choice: Choice) -> Diagnosis:
     base, best = found.base.refit, found.best
     chances = _probabilities(found)
     named = found.verdict == "named"
@@ -204,7 +223,7 @@ def _diagnosis(files: StudyFiles, found: Found) -> Diagnosis:
                 after_rms_percent=unseen.after_rms,
             ),
         ),
-        next_measurement=next_measurement(best, others(best, found.explanations)) if ambiguous else None,
+        next_measurement=choice.best,
     )
 
 
@@ -218,7 +237,7 @@ def _probabilities(found: Found) -> dict[str, float]:
     return dict(sorted(((e, w / whole) for e, w in weights.items()), key=lambda p: -p[1]))
 
 
-def _details(files: StudyFiles, found: Found, seconds: float) -> Details:
+def _details(files: StudyFiles, found: Found, choice: Choice, seconds: float) -> Details:
     best, e = found.best, found.evidence
     effect = library()[best.effects[0]] if best.effects else None
     seen: dict[str, ScanRow] = {}
@@ -241,6 +260,7 @@ def _details(files: StudyFiles, found: Found, seconds: float) -> Details:
         constants=constant_rows(found.base.refit, best.refit),
         evidence=tuple((x.candidates[0].label, x.log_evidence) for x in found.explanations),
         seconds=seconds,
+        options=choice.options,
         machine=machine_row(files),
         maps=() if found.verdict == "none" else map_rows(found.base.refit),
         opposite=opposite_rows(best) if found.verdict == "named" else (),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy.special import logsumexp
@@ -11,10 +12,8 @@ from scipy.stats import chi2
 
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.mislabelled import worth_trying
-from statorhom.diagnose.prediction import acted_materials
 from statorhom.diagnose.refit import Refit, refit
 from statorhom.diagnose.scan import Scan, Signature
-from statorhom.diagnose.stage_model import mesh_error, with_reference
 from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
 
@@ -24,6 +23,8 @@ WORTH = 2.0  # gain of the scan below which an effect is not refitted
 MOST = 12  # candidates that are refitted
 RELABELLED = 4
 ADEQUATE = 0.01  # chance of a misfit above which nothing is left to explain
+ROWS = 8  # of which one may be grossly wrong
+DRAWS = 4000
 POOR = 3.0  # squared residual per feature above which another valley is looked for
 
 
@@ -54,10 +55,32 @@ class Explanation:
         What is known of the constants counts like a measurement; how large an effect usually is does not: for that
         there are physical limits.
         """
+        return float(chi2.sf(self._misfit, max(len(self._residuals[0]), 1)))
+
+    @property
+    def adequacy_but_one(self) -> float:
+        """The same without the worst row, against the chance of such a rest: one gross error is no missing physics."""
+        rows, worst = len(self._residuals[0]), float(np.max(self._residuals[0] ** 2, initial=0.0))
+        if rows < ROWS:
+            return self.adequacy
+        draws = np.random.default_rng(0).chisquare(1.0, (DRAWS, rows))
+        rest = draws.sum(axis=1) - draws.max(axis=1)
+        return float(np.mean(rest >= self._misfit - worst))
+
+    @property
+    def _misfit(self) -> float:
         r = self.refit
         effect = slice(r.hypothesis.constants, None)
         unusual = float(np.sum(r.hypothesis.prior_weights[effect] * r.z[effect] ** 2))
-        return float(chi2.sf(r.objective - r.hypothesis.missed - unusual, max(len(r.jacobian), 1)))
+        return r.objective - r.hypothesis.missed - unusual - float(np.sum(self._residuals[1] ** 2))
+
+    @cached_property
+    def _residuals(self) -> tuple[np.ndarray, np.ndarray]:
+        """Those that count, and those of loss factors: these scatter as they like, and would hide a frequency."""
+        found = self.refit.hypothesis.features(self.refit.z)
+        lossy = np.array([f.kind == "loss" for f in found], dtype=bool)
+        residuals = np.array([f.residual for f in found])
+        return residuals[~lossy], residuals[lossy]
 
 
 def nothing(base: Refit) -> Explanation:
@@ -81,11 +104,11 @@ def single_effects(
     for signature in found.worth_refitting(MOST, WORTH):
         best = _best_refit(base, _starts_of(found, signature), _solved(explanations))
         if best is not None:
-            explanations.append(_explanation(best, counts))
+            explanations.append(explained(best, counts))
     for candidate in worth_trying(base, discrete)[:RELABELLED]:
         best = _best_refit(base, [(candidate, np.empty(0))], _solved(explanations))
         if best is not None:
-            explanations.append(_explanation(best, counts))
+            explanations.append(explained(best, counts))
     return sorted(explanations, key=lambda e: -e.log_evidence)
 
 
@@ -100,29 +123,14 @@ def with_second(first: Explanation, others: Sequence[Signature], counts: dict[st
     for signature in others:
         start = np.r_[first.refit.z, signature.start]
         hypothesis = Hypothesis(first.refit.hypothesis.study, (*first.candidates, signature.candidate))
-        best = _refitted(hypothesis, start)
+        best = refitted(hypothesis, start)
         if best is not None:
-            found.append(_explanation(best, counts))
+            found.append(explained(best, counts))
     return sorted(found, key=lambda e: -e.log_evidence)
 
 
-def sharpened(explanation: Explanation) -> Explanation:
-    """The same with basis and mesh factors of its own materials: the declared model's may be far from them."""
-    r = explanation.refit
-    hypothesis = r.hypothesis
-    values, actions = hypothesis.study.constants.values(r.z[: hypothesis.constants]), hypothesis.actions(r.z)
-    stages = []
-    for stage in hypothesis.study.stages:
-        materials = acted_materials(hypothesis.study, stage, values, actions)
-        near = with_reference(stage, materials)
-        error = mesh_error(stage.setup, near.ring, materials, stage.density)
-        stages.append(replace(near, error=error))
-    moved = replace(hypothesis, study=hypothesis.study.with_stages(tuple(stages)), held=None)
-    again = _refitted(moved, r.z)
-    return explanation if again is None else replace(explanation, refit=again)
-
-
-def _explanation(best: Refit, counts: dict[str, int]) -> Explanation:
+def explained(best: Refit, counts: dict[str, int]) -> Explanation:
+    """A refit with the prior over the effects' candidates."""
     candidates = best.hypothesis.candidates
     prior = -sum(float(np.log(max(1, counts.get(c.effect, 1)))) for c in candidates)
     return Explanation(candidates, best, best.log_evidence + prior)
@@ -143,18 +151,19 @@ def _best_refit(base: Refit, places: Sequence[tuple[Candidate, np.ndarray]], sol
     for candidate, start in places:
         z = np.r_[base.z, start]
         hypothesis = Hypothesis(base.hypothesis.study, (candidate,), base.hypothesis.left_out)
-        best = _refitted(hypothesis, z)
+        best = refitted(hypothesis, z)
         if not solved and (best is None or best.misfit > POOR * len(best.jacobian)):
             # a wide valley first: partners may change on the way
-            rough = _refitted(replace(hypothesis, discrepancy=COARSE), z)
-            sharp = None if rough is None else _refitted(hypothesis, rough.z)
+            rough = refitted(replace(hypothesis, discrepancy=COARSE), z)
+            sharp = None if rough is None else refitted(hypothesis, rough.z)
             best = min((r for r in (best, sharp) if r), key=lambda r: r.objective, default=None)
         if best is not None:
             found.append(best)
     return min(found, key=lambda r: r.objective, default=None)
 
 
-def _refitted(hypothesis: Hypothesis, z: np.ndarray) -> Refit | None:
+def refitted(hypothesis: Hypothesis, z: np.ndarray) -> Refit | None:
+    """The nearest optimum; None where no stator has the constants of the start."""
     try:
         return refit(hypothesis, z)
     except (StatorhomError, KeyError):

@@ -28,6 +28,9 @@ SPLIT_PART = 0.05  # of a split: shape and foot of what causes it are not known
 UNRESOLVED = 0.6  # of the loss factor: standard deviation of a split that shows one mode alone
 SHIFT_OWN, SHIFT_PART = 5e-5, 0.08  # of pole shifts from plane to plane: other directions of motion, scatter
 LINEAR, KNEE = 8.0, 3.0  # residuals grow with their logarithm beyond: one outlier does not bend all constants
+MOST_LOSS = (
+    3.0  # residual of a loss factor: a cable or a cushion can double one, and is no physics of the stator
+)
 USUAL_ORDERS = 6
 LOST, LOST_UNNAMED = 10.0, 4.0  # residual of a mode of a table that has no partner
 
@@ -40,10 +43,11 @@ class Feature:
 
     Parameters
     ----------
-    kind : "frequency", "split", "shift", "density".
+    kind : "frequency", "split", "shift", "density", "loss", "level", "level_loss".
     test : of which test, empty for densities.
     key : of which mode.
-    measured, predicted : ln f, relative split, relative shift, or kg/m³.
+    measured, predicted : ln f, relative split, relative shift, kg/m³, ln η, or the change of ln f or ln η from the
+        lowest force level.
     sd : of their difference.
     lost : whether the model has no such mode: the residual is a penalty.
     """
@@ -59,6 +63,9 @@ class Feature:
     @property
     def residual(self) -> float:
         """In standard deviations, large ones held down."""
+        if self.kind == "loss":
+            raw = (self.measured - self.predicted) / self.sd
+            return MOST_LOSS * float(np.tanh(raw / MOST_LOSS))
         return held_down((self.measured - self.predicted) / self.sd)
 
     @property

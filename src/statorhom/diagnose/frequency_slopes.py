@@ -1,7 +1,8 @@
 """Derivatives by the constants that act through the frequencies: one pass over the features serves all of them.
 
-A feature's residual depends on ln f of its own mode alone, so that moving all modes at once gives every feature's slope,
-and the modes' own slopes by the constants do the rest. The scatter of an order touches that order's splits alone.
+A feature's residual depends on ln f of its own mode alone, so that moving all modes at once gives every feature's
+slope, and the modes' own slopes by the constants do the rest. The scatter of an order touches that order's splits
+alone, a loss factor of a material the damping alone.
 """
 
 from __future__ import annotations
@@ -16,7 +17,12 @@ import numpy.typing as npt
 from statorhom.diagnose.features import Feature
 from statorhom.diagnose.hypothesis import Hypothesis, Told
 from statorhom.diagnose.measured import MeasuredTest
-from statorhom.diagnose.prediction import PredictedMode, acted_materials, material_vector
+from statorhom.diagnose.prediction import (
+    PredictedMode,
+    acted_materials,
+    material_vector,
+    slopes_by_materials,
+)
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.diagnose.supported import Partners, supported_test
@@ -29,7 +35,7 @@ FloatArray = npt.NDArray[np.float64]
 STEP = 1e-3  # of internal coordinates
 LOG_STEP = 1e-6  # of ln f
 KINDS = frozenset(
-    {"frequency", "split", "shift", "density"}
+    {"frequency", "split", "shift", "density", "loss", "level", "level_loss"}
 )  # what follows the constants as this module says
 
 
@@ -46,6 +52,7 @@ def by_frequency(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Featur
     constants = h.study.constants
     values, actions = constants.values(z[: h.constants]), h.actions(z)
     columns = _scatter_columns(h, z, told, base)
+    columns |= _loss_columns(h, z, told, base)
     acting = [
         j
         for j, name in enumerate(constants.names)
@@ -69,10 +76,9 @@ def by_frequency(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Featur
         if own is not None:
             for j, slope in zip(acting, own.tolist(), strict=True):
                 columns[j][number] = rates[number] * slope
-    for number, feature in enumerate(base):
-        if feature.kind == "density":
-            for j in acting:
-                columns[j][number] = _density_slope(h, z, j, feature, actions)
+    weighed = [number for number, feature in enumerate(base) if feature.kind == "density"]
+    for j in acting:
+        columns[j][weighed] = _density_slopes(h, z, j, [base[number] for number in weighed], actions)
     return columns
 
 
@@ -95,7 +101,7 @@ def concerns(study: StudyModel, stage: StageModel, constant: str) -> bool:
 def _scatter_columns(
     h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Feature]
 ) -> dict[int, FloatArray]:
-    columns = {}
+    columns: dict[int, FloatArray] = {}
     for part in ("re", "im"):
         own = {
             j: int(name.split()[1])
@@ -110,6 +116,18 @@ def _scatter_columns(
         slopes = slopes_of(base, found, STEP)
         orders = np.array([-1 if f.key is None else f.key[0] for f in base])
         columns |= {j: np.where(orders == order, slopes, 0.0) for j, order in own.items()}
+    return columns
+
+
+def _loss_columns(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Feature]) -> dict[int, FloatArray]:
+    names = {name for own in h.study.constants.losses for name in own.values()}
+    columns: dict[int, FloatArray] = {}
+    for j, name in enumerate(h.study.constants.names):
+        if name in names:
+            moved = z.copy()
+            moved[j] += STEP
+            found, _ = h.all_features(moved, told)
+            columns[j] = slopes_of(base, found, STEP)
     return columns
 
 
@@ -152,7 +170,8 @@ def _mode_slopes(
         elif concerns(study, stage, constant.name):
             change[:, column] = _material_slope(study, stage, test, values, z, j, actions, regions, start)
     return {
-        key: slope @ change + modes[key].shared * mesh for key, slope in stage.slopes(before, modes).items()
+        key: slope @ change + modes[key].shared * mesh
+        for key, slope in slopes_by_materials(stage, before, modes).items()
     }
 
 
@@ -201,12 +220,12 @@ def _supported_slope(
     return np.asarray(sum(share * slopes[k] for k, share in shares.items()) / whole)
 
 
-def _density_slope(
-    h: Hypothesis, z: FloatArray, j: int, feature: Feature, actions: Sequence[Action]
-) -> float:
+def _density_slopes(
+    h: Hypothesis, z: FloatArray, j: int, features: Sequence[Feature], actions: Sequence[Action]
+) -> FloatArray:
     constant = h.study.constants.items[j]
     if not constant.name.endswith("mass_kg"):
-        return 0.0
+        return np.zeros(len(features))
     values = h.study.constants.values(z[: h.constants])
     values[constant.name] = constant.value(z[j] + STEP)
-    return float(slopes_of([feature], h.densities(values, actions), STEP)[0])
+    return slopes_of(features, h.densities(values, actions), STEP)

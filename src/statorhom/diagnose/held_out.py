@@ -18,10 +18,19 @@ FOLDS = 3
 LEAST_FALL = 0.25
 ERRORS = 2.0  # standard errors that the fall must exceed
 WORSE = 1.5  # a group worsens when its error grows by this and beyond its noise
-# of features other than frequencies, in terms of a frequency: split of λ, shift of a pole
-WEIGHT = {"frequency": 1.0, "split": 0.25, "shift": 1.0}
+# of features other than frequencies, in terms of a frequency: split of λ, shift of a pole, level, a density's error
+WEIGHT = {
+    "frequency": 1.0,
+    "split": 0.25,
+    "shift": 1.0,
+    "level": 1.0,
+    "level_loss": 0.005,
+    "density": 0.5,
+}
 
 Group = tuple[str, ModeKey | None]
+WEIGHED: Group = ("", None)  # what is known of the densities
+MOVES = 0.5  # standard deviations by which an explanation moves a density of which it says something
 
 
 @dataclass(frozen=True)
@@ -86,18 +95,30 @@ class HeldOut:
 
 
 def held_out(base: Refit, explanation: Explanation) -> HeldOut:
-    """Hold out every third mode in turn."""
-    groups = _groups(base, explanation)
-    folds = [frozenset(groups[k::FOLDS]) for k in range(FOLDS)]
+    """Hold out every third mode in turn; where modes do not tell, the densities that an explanation moves.
+
+    A density is what no recording saw: that the recordings alone ask for a plausible one is a test of its own.
+    """
+    groups = [g for g in _groups(base, explanation) if g != WEIGHED]
+    found = _predicted(base, explanation, [frozenset(groups[k::FOLDS]) for k in range(FOLDS)])
+    if not found.falls and not found.worsens and _moves_densities(base, explanation):
+        weighed = _predicted(base, explanation, [frozenset([WEIGHED])])
+        if weighed.falls:
+            return replace(weighed, what="densities of the regions predicted from the recordings alone")
+    return found
+
+
+def _predicted(base: Refit, explanation: Explanation, folds: Sequence[frozenset[Group]]) -> HeldOut:
+    groups = {g for fold in folds for g in fold}
     rows: dict[Group, tuple[float, float, float]] = {}
     for fold in folds:
-        if not fold or len(fold) == len(groups):
+        if not fold or (len(fold) == len(groups) and fold != {WEIGHED}):
             continue
         errors = [_errors(r, fold) for r in (base, explanation.refit)]
         for group in fold:
             if all(group in e for e in errors):
                 rows[group] = (errors[0][group][0], errors[1][group][0], errors[0][group][1])
-    used = [g for g in groups if g in rows]
+    used = sorted(rows, key=str)
     return HeldOut(
         tuple(used),
         tuple(rows[g][0] for g in used),
@@ -115,6 +136,14 @@ def _groups(base: Refit, explanation: Explanation) -> list[Group]:
     return sorted(both[0] & both[1], key=str)
 
 
+def _moves_densities(base: Refit, explanation: Explanation) -> bool:
+    """Whether an explanation says something of densities."""
+    old, new = (
+        [f for f in r.hypothesis.features(r.z) if f.kind == "density"] for r in (base, explanation.refit)
+    )
+    return any(abs(a.measured - b.measured) > MOVES * a.sd for a, b in zip(old, new, strict=True))
+
+
 def _errors(full: Refit, fold: frozenset[Group]) -> dict[Group, tuple[float, float]]:
     """Errors of a fold in percent, and their noise, after a fit without it."""
     hypothesis: Hypothesis = replace(full.hypothesis, left_out=fold)
@@ -124,7 +153,7 @@ def _errors(full: Refit, fold: frozenset[Group]) -> dict[Group, tuple[float, flo
         return {}
     found: dict[Group, list[Feature]] = {}
     for feature in trained.hypothesis.features(trained.z, left_out=True):
-        if feature.kind in WEIGHT and not feature.lost and feature.sd < 0.5:
+        if feature.kind in WEIGHT and not feature.lost and feature.sd < 0.5 * _scale(feature):
             found.setdefault(feature.group, []).append(feature)
     return {group: (_error(features), _noise(features)) for group, features in found.items()}
 
@@ -135,11 +164,18 @@ def refit_held(hypothesis: Hypothesis, z: np.ndarray) -> Refit:
 
 
 def _error(features: Sequence[Feature]) -> float:
-    return 100 * float(np.sqrt(sum((WEIGHT[f.kind] * (f.measured - f.predicted)) ** 2 for f in features)))
+    return 100 * float(
+        np.sqrt(sum((WEIGHT[f.kind] * (f.measured - f.predicted) / _scale(f)) ** 2 for f in features))
+    )
 
 
 def _noise(features: Sequence[Feature]) -> float:
-    return 100 * float(np.sqrt(sum((WEIGHT[f.kind] * f.sd) ** 2 for f in features)))
+    return 100 * float(np.sqrt(sum((WEIGHT[f.kind] * f.sd / _scale(f)) ** 2 for f in features)))
+
+
+def _scale(feature: Feature) -> float:
+    """What an error of 1 is: all features are relative but densities."""
+    return feature.predicted if feature.kind == "density" else 1.0
 
 
 def _rms(values: Sequence[float]) -> float:

@@ -10,6 +10,14 @@ from typing import cast
 import numpy as np
 import numpy.typing as npt
 
+from statorhom.diagnose.damping import (
+    free_losses,
+    is_damped,
+    joint_loss,
+    loss_of,
+    supported_losses,
+    with_shares,
+)
 from statorhom.diagnose.dimension_response import changed_geometry, step_of
 from statorhom.diagnose.features import (
     Feature,
@@ -20,11 +28,14 @@ from statorhom.diagnose.features import (
     missed_cost,
     shift_features,
 )
-from statorhom.diagnose.masses import (
-    LAMINATION_DENSITY,
-    LAMINATION_DENSITY_SD,
-    stage_densities,
+from statorhom.diagnose.levels import (
+    common_keys,
+    force_levels,
+    level_bases,
+    level_features,
+    slipped,
 )
+from statorhom.diagnose.masses import KNOWN, stage_densities
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode, predicted
 from statorhom.diagnose.stage_model import StageModel
@@ -181,18 +192,57 @@ class Hypothesis:
             known: dict[str, Mapping[ModeKey, PredictedMode]] = {}
             for test in stage.tests:
                 if moved is None:
-                    modes = self._predicted(stage, test, values, actions, self.mark(z))
-                    held = self.held[test.name]
-                    # of free tests only what has a measured partner matters
-                    known[test.name] = {k: m for k, m in modes.items() if test.support != FREE or k in held}
+                    known[test.name] = self._known(stage, test, values, actions, z)
                 else:
                     known[test.name] = moved[stage.name][1][test.name]
                 if test.support != FREE:
-                    found += self._supported(stage, test, known[test.name], actions, self.mark(z))
+                    found += self._supported(stage, test, known[test.name], values, actions, self.mark(z))
                 else:
-                    found += self._free(stage, test, known[test.name], values, actions)
+                    found += self._free(stage, test, known, values, actions)
             told[stage.name] = (stage, known)
         return found, told
+
+    def _known(
+        self,
+        stage: StageModel,
+        test: MeasuredTest,
+        values: Mapping[str, float],
+        actions: Sequence[Action],
+        z: FloatArray,
+    ) -> dict[ModeKey, PredictedMode]:
+        """Predicted modes that the features of a test need, with their damping."""
+        assert self.held is not None
+        modes = self._predicted(stage, test, values, actions, self.mark(z))
+        if test.support == FREE:
+            # only what has a measured partner matters
+            held = set(cast(Keys, self.held[test.name]))
+            modes = {k: m for k, m in modes.items() if k in held}
+        if is_damped(self.study, test):
+            modes = with_shares(self.study, stage, test, modes, values, actions)
+        levels = force_levels(stage)
+        for action in actions:
+            if action.friction is not None and test.name in levels and action.touches(stage.name, test.name):
+                quiet = self._losses(stage, test, modes, values, actions)
+                modes = slipped(modes, action.friction, levels[test.name], max(levels.values()), quiet)
+        return modes
+
+    def _losses(
+        self,
+        stage: StageModel,
+        test: MeasuredTest,
+        modes: Mapping[ModeKey, PredictedMode],
+        values: Mapping[str, float],
+        actions: Sequence[Action],
+    ) -> dict[ModeKey, float]:
+        """Loss factors of predicted modes; none where no damping is predicted."""
+        if not is_damped(self.study, test):
+            return {}
+        contact = joint_loss(stage, actions)
+        return {
+            k: loss_of(self.study, stage, m, values, contact) + m.friction
+            for k, m in modes.items()
+            if m.shares
+        }
 
     def _predicted(
         self,
@@ -200,7 +250,7 @@ class Hypothesis:
         test: MeasuredTest,
         values: Mapping[str, float],
         actions: Sequence[Action],
-        mark: Hashable,
+        mark: Sequence[Hashable],
     ) -> dict[ModeKey, PredictedMode]:
         """Named free modes; of a supported test those that it is made of, without what is attached."""
         if test.support != FREE:
@@ -212,6 +262,7 @@ class Hypothesis:
         stage: StageModel,
         test: MeasuredTest,
         modes: Mapping[ModeKey, PredictedMode],
+        values: Mapping[str, float],
         actions: Sequence[Action],
         mark: tuple[Hashable, ...],
     ) -> list[Feature]:
@@ -219,18 +270,25 @@ class Hypothesis:
         reference = supported_test(self.study.files, stage, test, actions, mark)
         if reference is None:
             return []
-        logs = predicted_logs(stage, reference, modes)
-        return supported_features(test, cast(Partners, self.held[test.name]), logs, self.discrepancy)
+        logs, held = predicted_logs(stage, reference, modes), cast(Partners, self.held[test.name])
+        found = supported_features(test, held, logs, self.discrepancy)
+        losses = self._losses(stage, test, modes, values, actions)
+        if losses:
+            springs = sum(a.support_losses.get(test.support, 0.0) for a in actions)
+            found += supported_losses(test, held, reference, losses, springs)
+        return found
 
     def _free(
         self,
         stage: StageModel,
         test: MeasuredTest,
-        modes: Mapping[ModeKey, PredictedMode],
+        known: Mapping[str, Mapping[ModeKey, PredictedMode]],
         values: Mapping[str, float],
         actions: Sequence[Action],
     ) -> list[Feature]:
         assert self.held is not None
+        modes = known[test.name]
+        losses = self._losses(stage, test, modes, values, actions)
         keys, measured = cast(Keys, self.held[test.name]), self.modes(test, actions)
         scatter = {
             int(name.split()[1]): complex(value, values[f"{name[:-2]}im"])
@@ -244,25 +302,45 @@ class Hypothesis:
                 for k, m in modes.items()
             }
         found = free_features(test, measured, keys, modes, scatter, stage.error, self.discrepancy)
+        base = level_bases(stage).get(test.name)
+        if base is not None:
+            lower = next(t for t in stage.tests if t.name == base)
+            both = (cast(Keys, self.held[base]), keys)
+            twice = set(common_keys(both))
+            # the lowest level's frequencies, splits and losses stand for those of all levels
+            found = [f for f in found if f.key not in twice]
+            quiet = self._losses(stage, lower, known[base], values, actions)
+            found += level_features(
+                test, (self.modes(lower, actions), measured), both, (known[base], modes), (quiet, losses)
+            )
+        elif is_damped(self.study, test):
+            found += free_losses(test, measured, keys, losses)
         if test.shifts:
             labels = {m.label: k for m, k in zip(measured, keys, strict=True) if k is not None}
             found += shift_features(test, labels, stage.amplitudes, sensor)
         return found
 
     def densities(self, values: Mapping[str, float], actions: Sequence[Action]) -> list[Feature]:
-        """What is known of the lamination's density."""
+        """What is known of the densities of the regions that the tested steps add."""
         corrected: dict[str, float] = {}
         dimensions: dict[str, float] = {}
         for action in actions:
             corrected |= dict(action.masses)
             dimensions |= dict(action.dimensions)
-        stage = self.study.stages[0]
-        volumes = self.study.volumes(stage.setup)
-        if dimensions:
-            volumes = step_of(self.study, stage, changed_geometry(self.study, dimensions)).exact_volumes()
         masses = self.study.masses(values, corrected)
-        density = stage_densities(self.study.files, masses, stage.setup.index, volumes)
-        if "lamination" not in density:
-            return []
-        rho = density["lamination"]
-        return [Feature("density", "", None, rho, LAMINATION_DENSITY, LAMINATION_DENSITY_SD)]
+        changed = changed_geometry(self.study, dimensions) if dimensions else None
+        found = []
+        for stage in self.study.stages:
+            known = KNOWN.get(stage.setup.keys.kind)
+            if known is None:
+                continue
+            region, mean, sd = known
+            volumes = (
+                self.study.volumes(stage.setup)
+                if changed is None
+                else step_of(self.study, stage, changed).exact_volumes()
+            )
+            density = stage_densities(self.study.files, masses, stage.setup.index, volumes)
+            if region in density:
+                found.append(Feature("density", "", None, density[region], mean, sd))
+        return found

@@ -1,14 +1,25 @@
-"""From the weights of all steps to the densities of a step's regions, and what is known of those."""
+"""From the weights of all steps to the densities of a step's regions, and what is known of those.
+
+A number that was typed wrongly may be met by other constants everywhere but here: no material has the density.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from statorhom.materials.density import Weighing, densities
 from statorhom.study.study import StudyFiles
 
-# A stack of electrical steel: sheets of 7600 … 7850 kg/m³ at usual stacking factors.
-LAMINATION_DENSITY, LAMINATION_DENSITY_SD = 7700.0, 90.0  # kg/m³
+# region → mean and standard deviation of the density (kg/m³) after the step that adds it
+KNOWN: Mapping[str, tuple[str, float, float]] = MappingProxyType(
+    {
+        # sheets of electrical steel of 7600 … 7850 kg/m³ at usual stacking factors
+        "stack": ("lamination", 7700.0, 90.0),
+        # copper that fills 30 … 42 % of slots and overhangs, with its insulation
+        "wound": ("winding", 3150.0, 350.0),
+    }
+)
 
 
 def stage_densities(

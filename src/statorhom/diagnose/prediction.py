@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -39,6 +39,9 @@ class PredictedMode(NamedByMode):
     log_f : ln of its frequency (Hz), mesh factor and shifts included.
     split : complex relative split of λ by the hypothesis, without scatter.
     shared : relative standard deviation that one unit of the stage's mesh coordinate stands for.
+    slope : d ln f by the materials (`material_vector`) where it is not the bonded stator's, else None.
+    shares : source of a material, or "joint" → share of the strain energy; empty unless damping is predicted.
+    friction : what slipping adds to the loss factor.
     """
 
     key: ModeKey
@@ -46,6 +49,9 @@ class PredictedMode(NamedByMode):
     log_f: float
     split: complex
     shared: float
+    slope: np.ndarray | None = None
+    shares: Mapping[str, float] = field(default_factory=dict)
+    friction: float = 0.0
 
     @property
     def frequency_hz(self) -> float:
@@ -94,6 +100,15 @@ def material_vector(materials: Materials, regions: Sequence[str]) -> np.ndarray:
     )
 
 
+def slopes_by_materials(
+    stage: StageModel, materials: Materials, modes: Mapping[ModeKey, PredictedMode]
+) -> dict[ModeKey, np.ndarray]:
+    """d ln f of predicted modes by the entries of `material_vector`."""
+    bonded = [key for key, mode in modes.items() if mode.slope is None]
+    own = {key: mode.slope for key, mode in modes.items() if mode.slope is not None}
+    return {**stage.slopes(materials, bonded), **own}
+
+
 def predicted(
     study: StudyModel,
     stage: StageModel,
@@ -109,17 +124,18 @@ def predicted(
         # what breaks no symmetry may differ
         pairs = zip(actions, mark, strict=True)
         mark = tuple(m for a, m in pairs if a.changes and a.touches(stage.name, test))
-    rates = [a for a in here if a.modulus_at]
-    logs = _rated(stage, materials, rates[0]) if rates else _plain(stage, materials)
+    base = _base(stage, materials, here)
     shifts = broken_responses(stage, here, None if mark is None else (test, mark))
     mesh = values[f"{stage.name}:mesh"]
     found = {}
-    for key, (mode, log_f) in logs.items():
+    for key, one in base.items():
         shared = stage.error.shared(key)
-        total = log_f + np.log(stage.error.factor(key)) + mesh * shared
+        total = one.log_f + np.log(stage.error.factor(key)) + mesh * shared
         total += sum(dimension_shift(study, stage, a.dimensions, key) for a in here if a.dimensions)
         response = shifts.get(key, Response(0.0, 0j))
-        found[key] = PredictedMode(key, mode, float(total + response.shift), response.split, shared)
+        found[key] = PredictedMode(
+            key, one.mode, float(total + response.shift), one.split + response.split, shared, one.slope
+        )
     return found
 
 
@@ -141,14 +157,30 @@ def broken_responses(
     return known[mark]
 
 
-def _plain(stage: StageModel, materials: Materials) -> dict[ModeKey, tuple[StatorMode, float]]:
-    modes = mode_keys(stage.solve(materials).modes)
-    return {key: (mode, float(np.log(mode.frequency_hz))) for key, mode in modes.items()}
+@dataclass(frozen=True, eq=False)
+class _Symmetric:
+    """A mode before mesh factors and what breaks the symmetry."""
+
+    mode: StatorMode
+    log_f: float
+    split: complex = 0j
+    slope: np.ndarray | None = None
 
 
-def _rated(
-    stage: StageModel, materials: Materials, action: Action
-) -> dict[ModeKey, tuple[StatorMode, float]]:
+def _base(stage: StageModel, materials: Materials, actions: Sequence[Action]) -> dict[ModeKey, _Symmetric]:
+    for action in actions:
+        if action.joint is not None:
+            basis = stage.joined(action.joint.regions, with_arcs=action.joint.arc is not None)
+            modes = basis.solve(materials, action.joint)
+            return {key: _Symmetric(m.mode, m.log_f, m.split, m.slope) for key, m in modes.items()}
+    for action in actions:
+        if action.modulus_at:
+            return _rated(stage, materials, action)
+    found = mode_keys(stage.solve(materials).modes)
+    return {key: _Symmetric(mode, float(np.log(mode.frequency_hz))) for key, mode in found.items()}
+
+
+def _rated(stage: StageModel, materials: Materials, action: Action) -> dict[ModeKey, _Symmetric]:
     """Modes of a stator whose moduli follow the frequency: f with f = f(moduli at f), interpolated in ln f."""
     trial = np.log(RATE_HZ)
     tables = []
@@ -165,5 +197,5 @@ def _rated(
         if all(key in table for table in tables):
             logs = np.log([table[key].frequency_hz for table in tables])
             # f(trial) - trial falls: it crosses zero once
-            found[key] = (mode, float(np.interp(0.0, (trial - logs), logs)))
+            found[key] = _Symmetric(mode, float(np.interp(0.0, (trial - logs), logs)))
     return found

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from dataclasses import asdict, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +15,7 @@ from statorhom.diagnose.plane_shifts import plane_shifts, strongest
 from statorhom.extraction.measured_modes import MeasuredModes, measured_modes
 from statorhom.extraction.modal_table_text import modal_table
 from statorhom.identify.announce import Announce, silent
+from statorhom.identify.optimizers.workers import Tick, Workers
 from statorhom.modes.doublets import DoubletPair
 from statorhom.recordings.placement import Placement
 from statorhom.study.atomic import write_text
@@ -27,48 +28,81 @@ from statorhom.study.study import StudyFiles
 FOLDER, FORMAT = "recordings", 5  # a change of method makes what is kept stale
 
 
+@dataclass(frozen=True)
+class RecordedTest:
+    """What one test's extraction needs; can be sent to another process.
+
+    Parameters
+    ----------
+    study : path of the study file.
+    keys : of the test.
+    stage : number of its stage.
+    folder : where its modes are kept.
+    """
+
+    study: Path
+    keys: ModalTestKeys
+    stage: int
+    folder: Path
+
+
 def measured_tests(
-    files: StudyFiles, folder: Path, announce: Announce = silent
+    files: StudyFiles, folder: Path, announce: Announce = silent, jobs: int = 1
 ) -> tuple[StudyFiles, dict[str, MeasuredTest]]:
     """The study with tables of all tests, and its tests by name.
+
+    Parameters
+    ----------
+    jobs : processes that extract modes.
 
     Raises
     ------
     StatorhomError
         Where recordings cannot be read or hold no modes.
     """
-    recorded = [t for s in files.study.stages for t in s.tests if t.name not in files.tables]
+    stages = list(enumerate(files.study.stages))
+    recorded = [
+        RecordedTest(files.path, test, number, folder / FOLDER)
+        for number, stage in stages
+        for test in stage.tests
+        if test.name not in files.tables
+    ]
     progress = announce("modal extraction", max(1, len(recorded)))
+    with Workers(jobs) as workers:
+        extracted = workers.map(_recorded, recorded, progress=progress) if recorded else []
+    known = {one.name: one for one in extracted}
     tables, found = dict(files.tables), {}
-    for number, stage in enumerate(files.study.stages):
+    for number, stage in stages:
         for test in stage.tests:
             if test.name in files.tables:
                 modes = tuple(sorted(files.tables[test.name].modes, key=lambda m: m.frequency_hz))
                 found[test.name] = MeasuredTest(number, test.name, test.support, modes)
-                continue
-            found[test.name] = _recorded(files, test, number, folder / FOLDER)
-            tables[test.name] = ModalTable(files.path, found[test.name].modes)
-            progress(len(found))
+            else:
+                found[test.name] = known[test.name]
+                tables[test.name] = ModalTable(files.path, known[test.name].modes)
     return replace(files, tables=FrozenMap(tables)), found
 
 
-def _recorded(files: StudyFiles, test: ModalTestKeys, stage: int, folder: Path) -> MeasuredTest:
-    paths = [files.path.parent / name for name in test.paths]
+def _recorded(task: RecordedTest, tick: Tick) -> MeasuredTest:
+    test, stage = task.keys, task.stage
+    paths = [task.study.parent / name for name in test.paths]
     digest = hashlib.sha256(f"{FORMAT} {Placement.of_test(test)}".encode())
     for path in paths:
         digest.update(path.read_bytes())
-    kept = folder / f"{test.name}-diagnosis.json"
+    kept = task.folder / f"{test.name}-diagnosis.json"
     known = _read(kept, digest.hexdigest())
     if known is not None:
+        tick()
         return replace(known, stage=stage, name=test.name, support=test.support)
     with threadpool_limits(limits=1, user_api="blas"):
         measured = measured_modes(paths, Placement.of_test(test))
         if not measured.modes:
             raise input_error(
-                files.path, f"tests[{test.name}]", "no mode stands out of the noise", "repeat the test"
+                task.study, f"tests[{test.name}]", "no mode stands out of the noise", "repeat the test"
             )
         found = from_recording(measured, stage, test.name, test.support, paths[0])
     write_text(kept, json.dumps({"digest": digest.hexdigest(), "test": asdict(found)}, default=_plain) + "\n")
+    tick()
     return found
 
 

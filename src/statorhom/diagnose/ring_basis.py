@@ -176,7 +176,7 @@ class RingBasis:
         with one_blas_thread():
             for problem in self.problems:
                 solved, unit = _solved(problem.space, matrices, REACH * self.highest_hz)
-                problems.append(_grown(problem, _independent(problem.basis, solved, unit), terms, profile))
+                problems.append(grown(problem, independent(problem.basis, solved, unit), terms, profile))
         return replace(self, problems=tuple(problems))
 
 
@@ -223,7 +223,7 @@ def _solved(
     return np.hstack(found), masses[0][1]
 
 
-def _independent(basis: np.ndarray, added: np.ndarray, M: sp.csr_array) -> np.ndarray:
+def independent(basis: np.ndarray, added: np.ndarray, M: sp.csr_array) -> np.ndarray:
     """M-orthonormal directions (m, k) of `added` that the basis lacks."""
     if added.shape[1] == 0:
         return added
@@ -259,9 +259,7 @@ def affine_terms(model: AffineModel) -> AffineTerms:
     )
 
 
-def _grown(
-    problem: RingProblem, added: np.ndarray, terms: AffineTerms, profile: RadialProfile
-) -> RingProblem:
+def grown(problem: RingProblem, added: np.ndarray, terms: AffineTerms, profile: RadialProfile) -> RingProblem:
     """The problem with further vectors in its basis; only their products are new."""
     space, old, count = problem.space, problem.basis, added.shape[1]
     if count == 0 and problem.stiffness:
@@ -274,7 +272,7 @@ def _grown(
         k = left.shape[1] // 2
         return np.asarray(left[:, :k].T @ right[:, :count] + left[:, k:].T @ right[:, count:])
 
-    def grown(known: np.ndarray | None, term: sp.csr_array) -> np.ndarray:
+    def larger(known: np.ndarray | None, term: sp.csr_array) -> np.ndarray:
         image = space.copies * (term @ shapes)
         mixed, own = products(before, image), products(shapes, image)
         inner = np.zeros((size, size)) if known is None else known
@@ -283,13 +281,13 @@ def _grown(
     stiffness = {
         r: np.stack(
             [
-                grown(known[q] if (known := problem.stiffness.get(r)) is not None else None, t)
+                larger(known[q] if (known := problem.stiffness.get(r)) is not None else None, t)
                 for q, t in enumerate(parts)
             ]
         )
         for r, parts in terms.stiffness.items()
     }
-    mass = {r: grown(problem.mass.get(r), t) for r, t in terms.mass.items()}
+    mass = {r: larger(problem.mass.get(r), t) for r, t in terms.mass.items()}
     amplitudes = profile.orders(space, space.expand(added))
     if problem.stiffness:
         amplitudes = np.hstack([problem.profile, amplitudes])

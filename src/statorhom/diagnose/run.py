@@ -40,7 +40,7 @@ def diagnose_study(
     if apply:
         check_not_the_study(files, folder)
     geometry = stator_geometry(files.geometry, files.geometry_path)
-    measured, tests = measured_tests(files, folder, announce)
+    measured, tests = measured_tests(files, folder, announce, settings.jobs)
     diagnosis, details, named = diagnose(measured, geometry, tests, settings, announce)
     write_diagnosis(diagnosis, details, folder)
     if apply and named:

@@ -39,6 +39,7 @@ class Signature:
     change : (features + constants,) of the augmented residuals, constants projected out, of unit length.
     strength : length before, in standard deviations.
     gain : T, one-sided: 0 where the misfit asks for the opposite of the effect.
+    whole : (features,) change of the residuals before.
     """
 
     candidate: Candidate
@@ -46,6 +47,7 @@ class Signature:
     change: FloatArray
     strength: float
     gain: float
+    whole: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,26 +78,55 @@ def scan(base: Refit, candidates: Sequence[Candidate], seed: int) -> Scan:
     candidates : with parameters; discrete ones change the pairing and are tried by refits alone.
     seed : of the draws.
     """
-    residuals = np.r_[base.hypothesis.residuals(base.z), base.z]
-    J = np.vstack([base.jacobian, np.eye(len(base.z))])
-    q, _ = np.linalg.qr(J)
+    away = _Constants(base)
     found = []
     for candidate in candidates:
         for start in starts(base.hypothesis.study, candidate):
             change = _change(base, candidate, start)
-            if change is None:
-                continue
-            change = np.r_[change, np.zeros(len(base.z))]
-            total = float(change @ change)
-            change = change - q @ (q.T @ change)
-            left = float(change @ change)
-            if left > max(INVISIBLE * total, 1e-8):
-                unit = change / np.sqrt(left)
-                # the effect takes away what its signature shares with the misfit, with the opposite sign
-                gain = max(0.0, -float(unit @ residuals)) ** 2
-                found.append(Signature(candidate, start, unit, float(np.sqrt(left)), gain))
+            if change is not None and (signature := away.signature(candidate, start, change)) is not None:
+                found.append(signature)
     found.sort(key=lambda s: -s.gain)
-    return Scan(tuple(found), _p_value(found, q, seed))
+    return Scan(tuple(found), _p_value(found, away.q, seed))
+
+
+def rescanned(before: Scan, base: Refit, first: Refit) -> Scan:
+    """What the effects would take away of the misfit that an explanation leaves, its constants refitted too.
+
+    Signatures keep their shapes; where the explanation's modes have other partners, the scan stays as it is.
+
+    Parameters
+    ----------
+    before, base : the scan and the optimum that it was made at.
+    first : the explanation.
+    """
+    rows = [[(f.kind, f.test, f.key) for f in r.hypothesis.features(r.z)] for r in (base, first)]
+    if rows[0] != rows[1]:
+        return before
+    away = _Constants(first)
+    again = (away.signature(s.candidate, s.start, s.whole) for s in before.signatures)
+    return Scan(tuple(sorted((s for s in again if s is not None), key=lambda s: -s.gain)), before.p_value)
+
+
+class _Constants:
+    """Projects out what a refit's coordinates can take up."""
+
+    def __init__(self, base: Refit) -> None:
+        known = np.sqrt(base.hypothesis.prior_weights)
+        self.residuals = np.r_[base.hypothesis.residuals(base.z), known * base.z]
+        self.q, _ = np.linalg.qr(np.vstack([base.jacobian, np.diag(known)]))
+
+    def signature(self, candidate: Candidate, start: FloatArray, whole: FloatArray) -> Signature | None:
+        """Of a change of the features' residuals; None where the constants take up all of it."""
+        change = np.r_[whole, np.zeros(len(self.residuals) - len(whole))]
+        total = float(change @ change)
+        change = change - self.q @ (self.q.T @ change)
+        left = float(change @ change)
+        if left <= max(INVISIBLE * total, 1e-8):
+            return None
+        unit = change / np.sqrt(left)
+        # the effect takes away what its signature shares with the misfit, with the opposite sign
+        gain = max(0.0, -float(unit @ self.residuals)) ** 2
+        return Signature(candidate, start, unit, float(np.sqrt(left)), gain, whole)
 
 
 def _p_value(signatures: Sequence[Signature], q: FloatArray, seed: int) -> float:

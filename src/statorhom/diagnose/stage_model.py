@@ -9,8 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from statorhom.diagnose.joint_basis import JointBasis, joint_basis
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.ring_basis import RingBasis, RingModes, ring_basis
+from statorhom.geometry.stator import StepGeometry
 from statorhom.identify.model_error import ModelError
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.mesh.density import MeshDensity
@@ -52,6 +54,7 @@ class StageModel:
     _last: dict[bytes, RingModes] = field(default_factory=dict, repr=False)
     kept_responses: dict[Hashable, Any] = field(default_factory=dict, repr=False)
     _slopes: dict[int, dict[ModeKey, np.ndarray]] = field(default_factory=dict, repr=False)
+    _joints: dict[tuple[tuple[str, ...], bool], JointBasis] = field(default_factory=dict, repr=False)
 
     @property
     def name(self) -> str:
@@ -85,6 +88,20 @@ class StageModel:
         """Modes of all harmonics at the reference, for what breaks the symmetry."""
         top = self.ring.highest_hz
         return symmetric_basis(self.model, self.reference, top, margin=BROKEN_MARGIN, certified=False)
+
+    def joined(self, regions: tuple[str, ...], *, with_arcs: bool) -> JointBasis:
+        """Modes with a contact around some regions."""
+        used = tuple(r for r in regions if r in self.model.mesh.regions)
+        if (used, with_arcs) not in self._joints:
+            self._joints[used, with_arcs] = joint_basis(
+                self.model.mesh,
+                used,
+                self.reference,
+                self.ring.highest_hz,
+                self.orders,
+                with_arcs=with_arcs,
+            )
+        return self._joints[used, with_arcs]
 
     @cached_property
     def reference_keys(self) -> Mapping[ModeKey, StatorMode]:
@@ -125,7 +142,7 @@ def stage_model(
     setup: StageSetup, tests: Sequence[MeasuredTest], snapshots: Sequence[Materials], density: MeshDensity
 ) -> StageModel:
     """A stage at the first of some materials, good near all of them; no mesh factors yet."""
-    assert setup.step is not None
+    assert isinstance(setup.step, StepGeometry)
     model = assemble(mesh_step(setup.step, density))
     top = BAND * max(mode.frequency_hz for test in tests for mode in test.modes)
     named = [m.order for test in tests for m in test.modes if m.order is not None]
@@ -136,7 +153,7 @@ def stage_model(
 
 def mesh_error(setup: StageSetup, ring: RingBasis, materials: Materials, density: MeshDensity) -> ModelError:
     """Mesh factors from two meshes at given materials."""
-    assert setup.step is not None
+    assert isinstance(setup.step, StepGeometry)
     finer = assemble(mesh_step(setup.step, density.refined(FINER)))
     orders = sorted({m.order for t in setup.tests for m in t.modes if m.order} or {2, 3, 4})
     fine = problem_at(finer, materials).solve(ring.highest_hz, orders, MOST)
@@ -155,5 +172,6 @@ def with_reference(stage: StageModel, materials: Materials) -> StageModel:
         reference=materials,
         _last={},
         _slopes={},
+        _joints={},
         kept_responses={},
     )

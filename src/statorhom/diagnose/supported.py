@@ -46,12 +46,14 @@ class SupportedReference:
     ----------
     log_f : (modes,) ln of the frequencies (Hz).
     shares : named free mode → (modes,) share of its strain energy.
+    held : (modes,) share of the springs to the ground.
     radial : (modes, planes, angles) at the test's points, None where no shapes were measured or asked for.
     names : (r, n) of every mode, None where shapes were measured or names not asked for.
     """
 
     log_f: np.ndarray
     shares: Mapping[ModeKey, np.ndarray]
+    held: np.ndarray
     radial: np.ndarray | None = None
     names: tuple[tuple[int | None, int | None], ...] | None = None
 
@@ -152,15 +154,16 @@ def _solved(
     modes = solve_broken(stage.broken, [_springs(stage, support.points), *more], tolerance=None)
     log_f = np.log(modes.frequencies_hz)
     shares = {key: _share(modes, stage, key) for key in stage.columns}
+    held = _held_share(modes)
     if not shapes:
-        return SupportedReference(log_f, shares)
+        return SupportedReference(log_f, shares, held)
     if test.shapes is None:
         named = name_supported(modes, stage.model, stage.reference)
-        return SupportedReference(log_f, shares, None, tuple((m.order, m.axial) for m in named))
+        return SupportedReference(log_f, shares, held, None, tuple((m.order, m.axial) for m in named))
     z, angles = (a.ravel() for a in np.meshgrid(test.shapes.z_m, test.shapes.angles_rad, indexing="ij"))
     motion = modes.motion(surface_points(mesh, angles, z))[:, 0]
     shape = (len(test.shapes.z_m), len(test.shapes.angles_rad), len(modes))
-    return SupportedReference(log_f, shares, np.moveaxis(motion.reshape(shape), -1, 0))
+    return SupportedReference(log_f, shares, held, np.moveaxis(motion.reshape(shape), -1, 0))
 
 
 def _springs(stage: StageModel, held: HeldPoints) -> Attachment:
@@ -178,6 +181,14 @@ def _share(modes: BrokenModes, stage: StageModel, key: ModeKey) -> np.ndarray:
     used = [place.cosine] if place.sine is None else [place.cosine, place.sine]
     energy = np.sum(modes.coordinates[used] ** 2, axis=0) * place.eigenvalue
     return np.asarray(np.minimum(energy / modes.eigenvalues, 1.0))
+
+
+def _held_share(modes: BrokenModes) -> np.ndarray:
+    """Share of the springs to the ground in the potential energy of every mode."""
+    own = modes.coupled.statics
+    motion = np.hstack([own.rows, own.flexibility]) @ modes.coordinates
+    energy = np.sum(motion * (own.stiffness @ motion), axis=0)
+    return np.asarray(np.clip(energy / modes.eigenvalues, 0.0, 1.0))
 
 
 def predicted_logs(

@@ -10,7 +10,6 @@ from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
-from statorhom.geometry.block import BlockGeometry
 from statorhom.geometry.tested_object import ObjectGeometry, object_geometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.described import described
@@ -157,8 +156,6 @@ class Chain:
         )
         store, effects = BasisStore(self.bases), effect_shifts(self.files, setup)
         run = run_stage(setup, carried, analytic, self.settings, workers, announce, store, effects)
-        if isinstance(setup.step, BlockGeometry):
-            return stage_result(run, state.mass_kg, state.regions, {})
         shapes, rows = free_shapes(run)
         result = stage_result(run, state.mass_kg, state.regions, rows)
         progress = announce("supported tests", 1)

@@ -13,14 +13,17 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from statorhom.errors import IdentificationError
+from statorhom.geometry.stator import StepGeometry
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.materials.hooke import Hooke
-from statorhom.model.affine import AffineModel, Material, Materials
+from statorhom.mesh.hex_mesh import PartMesh
+from statorhom.model.affine import AffineModel, Material, Materials, stator_model
 from statorhom.model.broken.basis import symmetric_basis
 from statorhom.model.broken.named_response import Response, columns_of, named_response
 from statorhom.model.broken.solve import solve_broken
 from statorhom.model.convergence import ModeKey, mode_keys
 from statorhom.model.free_modes import FreeModes, solve_free
+from statorhom.model.harmonic import Harmonic
 from statorhom.physics.action import Action
 from statorhom.physics.declared import DeclaredEffect, beyond, declared_effects
 from statorhom.study.study import StudyFiles
@@ -45,7 +48,7 @@ class EffectShifts:
     names: tuple[str, ...] = ()
 
     def at(
-        self, model: AffineModel, materials: Materials, highest_hz: float, orders: Sequence[int]
+        self, model: AffineModel[PartMesh], materials: Materials, highest_hz: float, orders: Sequence[int]
     ) -> dict[ModeKey, Response]:
         """Shift of ln f and split of every named mode at given materials.
 
@@ -62,6 +65,11 @@ class EffectShifts:
         """
         if not self.actions:
             return {}
+        return self._at(stator_model(model), materials, highest_hz, orders)
+
+    def _at(
+        self, model: AffineModel, materials: Materials, highest_hz: float, orders: Sequence[int]
+    ) -> dict[ModeKey, Response]:
         with threadpool_limits(limits=1, user_api="blas"):
             plain = mode_keys(solve_free(model, materials, highest_hz, orders).modes)
             acted = self.materials(materials)
@@ -86,7 +94,7 @@ class EffectShifts:
         return materials
 
     def _broken(
-        self, model: AffineModel, materials: Materials, solution: FreeModes, highest_hz: float
+        self, model: AffineModel[PartMesh], materials: Materials, solution: FreeModes, highest_hz: float
     ) -> dict[ModeKey, Response]:
         changes = [c for a in self.actions if a.changes for c in a.changes(model.mesh, materials)]
         if not changes:
@@ -95,14 +103,16 @@ class EffectShifts:
         modes = solve_broken(basis, changes, tolerance=None)
         found = {}
         for key, mode in mode_keys(solution.modes).items():
-            place = columns_of(basis, solution.harmonics[mode.problem], mode.frequency_hz)
+            space = solution.harmonics[mode.problem]
+            assert isinstance(space, Harmonic)
+            place = columns_of(basis, space, mode.frequency_hz)
             response = None if place is None else named_response(modes, place)
             if response is not None:
                 found[key] = response
         return found
 
     def _rated(
-        self, model: AffineModel, materials: Materials, highest_hz: float, orders: Sequence[int]
+        self, model: AffineModel[PartMesh], materials: Materials, highest_hz: float, orders: Sequence[int]
     ) -> dict[ModeKey, float]:
         """ln f of a stator whose moduli follow the frequency: where f of the moduli at f is f itself."""
         laws = {r: law for a in self.actions for r, law in a.modulus_at.items() if r in materials}
@@ -139,6 +149,10 @@ def effect_shifts(files: StudyFiles, setup: StageSetup) -> EffectShifts:
         If an effect cannot be in the frequencies that a fit compares.
     """
     here = [d for d in declared_effects(files) if d.action.touches(setup.keys.name)]
+    if here and not isinstance(setup.step, StepGeometry):
+        raise IdentificationError(
+            f"{files.path}: stages[{setup.keys.name}].effects: plates and beams have no effects yet; delete them"
+        )
     for effect in here:
         unknown = beyond(effect.action, UNDERSTOOD)
         if unknown is not None:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from statorhom.mesh.mirror_mesh import MirrorMesh
 from statorhom.modes.mac import subspace_mac
 from statorhom.modes.measured_shape import MeasuredShape
 from statorhom.results.schema import ModeResult
@@ -37,7 +38,7 @@ def with_mac(
 
 def _mac(simulated: ShapeFile, mode: ModeShape, shape: MeasuredShape) -> float | None:
     """Part of the measured radial motion that is of the mode; a doublet's mode may be turned as it likes."""
-    if mode.order is None or mode.harmonic is None:
+    if mode.order is None or mode.harmonic is None or isinstance(simulated.mesh, MirrorMesh):
         return None
     along = CubicSpline(simulated.planes_m, mode.spectrum[:, mode.order].real)(shape.z_m)
     # planes beside the core lie on a frame, which is another surface

@@ -6,10 +6,12 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from statorhom.identify.model_error import DEFAULT_RELATIVE_SD, ModelError
+from statorhom.identify.model_error import DEFAULT_RELATIVE_SD
 from statorhom.identify.stage_problem import MESH, CorrectedMode, corrected, doublet_lines, pair_modes
 from statorhom.identify.stage_run import StageRun
 from statorhom.identify.stage_setup import TestModes
+from statorhom.mesh.mirror_mesh import MirrorMesh
+from statorhom.model.mirror_names import mirror_kind
 from statorhom.results.schema import ModeResult
 from statorhom.study.modal_table import MeasuredMode
 from statorhom.study.study_file import FREE
@@ -69,7 +71,7 @@ def _test_results(
     taken = {p.simulated for p in pairing.pairs}
     for number, alone in enumerate(simulated):
         if number not in taken and alone.mode.visibility >= EXPECTED and alone.frequency_hz <= top:
-            results.append(_simulated_alone(test.name, alone, run.error, shapes.get(number)))
+            results.append(_simulated_alone(run, test.name, alone, shapes.get(number)))
     return results
 
 
@@ -100,7 +102,7 @@ def _paired(
         error_percent=100 * (simulated.frequency_hz / measured.frequency_hz - 1),
         order=simulated.order,
         axial=simulated.axial,
-        kind=simulated.kind,
+        kind=_kind(run, simulated),
         role=role,  # type: ignore[arg-type]
         doubt=doubt,
         mesh_percent=None if key is None else 100 * (run.error.factor(key) - 1),
@@ -123,14 +125,21 @@ def measured_alone(test: str, mode: MeasuredMode) -> ModeResult:
     )
 
 
-def _simulated_alone(test: str, mode: CorrectedMode, error: ModelError, shape: int | None) -> ModeResult:
+def _simulated_alone(run: StageRun, test: str, mode: CorrectedMode, shape: int | None) -> ModeResult:
     return ModeResult(
         test=test,
         simulated_hz=mode.frequency_hz,
         order=mode.order,
         axial=mode.axial,
-        kind=mode.kind,
-        mesh_percent=None if mode.key is None else 100 * (error.factor(mode.key) - 1),
+        kind=_kind(run, mode),
+        mesh_percent=None if mode.key is None else 100 * (run.error.factor(mode.key) - 1),
         role="unmatched",
         shape=shape,
     )
+
+
+def _kind(run: StageRun, mode: CorrectedMode) -> str:
+    mesh, parities = run.model.mesh, mode.mode.parities
+    if isinstance(mesh, MirrorMesh) and parities is not None:
+        return mirror_kind(mesh, parities)
+    return mode.kind

@@ -8,6 +8,7 @@ import numpy as np
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.free_modes import FreeModes
+from statorhom.model.harmonic import Harmonic
 from statorhom.model.radial_profile import PLANES
 from statorhom.model.stator_mode import StatorMode
 from statorhom.model.surface import SurfacePoints, surface_points
@@ -37,6 +38,7 @@ def shape_grid(mesh: HalfPitchMesh) -> ShapeGrid:
 def surface_motion(grid: ShapeGrid, solution: FreeModes, mode: StatorMode) -> np.ndarray:
     """Real motion (planes, angles, 3) of a free mode; of a doublet the shape with an antinode at tooth 0."""
     harmonic = solution.harmonics[mode.problem]
+    assert isinstance(harmonic, Harmonic)
     motion = grid.points.evaluate(harmonic, solution.shape(mode))
     real = motion.imag if harmonic.parity == "odd" else motion.real
     return np.asarray(real.reshape(len(grid.planes), len(grid.angles), 3))
@@ -69,4 +71,20 @@ def mode_shape(grid: ShapeGrid, solution: FreeModes, mode: StatorMode) -> ModeSh
         kind=mode.kind if mode.order is not None else name.kind,
         share=name.share,
         spectrum=spectrum,
+    )
+
+
+def block_shape(solution: FreeModes, mode: StatorMode, kind: str) -> ModeShape:
+    """What the report draws of a plate's or a beam's mode."""
+    space = solution.harmonics[mode.problem]
+    return ModeShape(
+        frequency_hz=mode.frequency_hz,
+        displacement=solution.shape(mode).reshape(-1, 3),
+        harmonic=space.order,
+        parity=space.parity,
+        order=None,
+        axial=None,
+        kind=kind,
+        share=0.0,
+        spectrum=np.zeros((0, 0)),
     )

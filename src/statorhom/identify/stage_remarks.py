@@ -10,6 +10,7 @@ from statorhom.identify.model_error import DEFAULT_RELATIVE_SD
 from statorhom.identify.stage_materials import DENSITY
 from statorhom.identify.stage_run import StageRun
 from statorhom.identify.surface.summary import surface_warnings
+from statorhom.mesh.mirror_mesh import MirrorMesh
 from statorhom.results.schema import ModeResult
 from statorhom.study.response_surface import SurfaceKeys
 from statorhom.study.stages import StageKeys
@@ -25,11 +26,14 @@ def assumptions(run: StageRun) -> tuple[str, ...]:
     shift = shared_shift(run)
     keys = [m.key for m in simulated_modes(run) if m.key is not None and m.visibility >= 1.0]
     parts = [abs(shift) * run.error.shared(k) for k in keys]
+    block = isinstance(run.model.mesh, MirrorMesh)
+    axes = "x, y and z" if block else "r, θ and z"
+    causes = "" if block else " (tooth roots, slot corners)"
     lines = [
-        "Every region is homogeneous and perfectly bonded to its neighbours; its material's axes are r, θ and z.",
+        f"Every region is homogeneous and perfectly bonded to its neighbours; its material's axes are {axes}.",
         "Free tests: no suspension stiffness. Undamped natural frequencies are compared with the measured ones.",
         f"Where a table gives no standard deviation, a frequency counts as known to {100 * DEFAULT_RELATIVE_SD:.1f} %.",
-        f"All simulated frequencies share a model error (tooth roots, slot corners) that grows with what the mesh "
+        f"All simulated frequencies share a model error{causes} that grows with what the mesh "
         f"refinement changes; the fit put it at {shift + 0.0:+.2f} of its standard deviations, "
         f"at most {100 * max(parts, default=0.0):.2f} % of a frequency.",
     ]

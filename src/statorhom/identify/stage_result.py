@@ -18,7 +18,9 @@ from statorhom.identify.stage_setup import StageSetup
 from statorhom.identify.surface.summary import surface_summary
 from statorhom.materials.density import RegionDensity
 from statorhom.materials.plausibility import density_warning
-from statorhom.model.convergence import ModeConvergence
+from statorhom.mesh.mirror_mesh import MirrorMesh
+from statorhom.model.convergence import ModeConvergence, ModeKey, mode_keys
+from statorhom.model.mirror_names import mirror_kind
 from statorhom.results.schema import (
     Constant,
     Convergence,
@@ -64,7 +66,7 @@ def stage_result(
     return result.model_copy(
         update={
             "modes": modes,
-            "convergence": tuple(_convergence(c) for c in run.fit.convergence),
+            "convergence": tuple(_convergence(run, c) for c in run.fit.convergence),
             "fit": _summary(run, modes),
             "sensitivity": _sensitivity(run),
             "carried": carried(run.fit.posterior).state(),
@@ -115,10 +117,13 @@ def _stage(setup: StageSetup, before_kg: float, regions: Mapping[str, RegionResu
     )
 
 
-def _convergence(c: ModeConvergence) -> Convergence:
+def _convergence(run: StageRun, c: ModeConvergence) -> Convergence:
+    mesh = run.model.mesh
+    block = isinstance(mesh, MirrorMesh)
     return Convergence(
-        order=c.key[0],
-        axial=c.key[1],
+        order=None if block else c.key[0],
+        axial=None if block else c.key[1],
+        kind=mirror_kind(mesh, c.key[0]) if isinstance(mesh, MirrorMesh) else None,
         dof=c.dof,
         frequency_hz=c.frequency_hz,
         extrapolated_hz=c.extrapolated_hz,
@@ -134,8 +139,21 @@ def _sensitivity(run: StageRun) -> Sensitivity:
     used = [i for i, name in enumerate(found.constants) if not name.endswith(DENSITY)]
     return Sensitivity(
         constants=tuple(found.constants[i] for i in used),
-        modes=found.modes,
+        modes=_mode_names(run, keys) or found.modes,
         values=tuple(tuple(float(row[i]) for i in used) for row in found.values),
+    )
+
+
+def _mode_names(run: StageRun, keys: Sequence[ModeKey]) -> tuple[str, ...]:
+    """Names of a block's modes: by the motion and the frequency; none of others."""
+    mesh = run.model.mesh
+    if not isinstance(mesh, MirrorMesh):
+        return ()
+    solved = mode_keys(run.fit.problem.solve(run.fit.posterior.best.x).modes)
+    return tuple(
+        f"{mirror_kind(mesh, key[0])} {solved[key].frequency_hz:.0f} Hz".strip()
+        for key in keys
+        if key in solved
     )
 
 

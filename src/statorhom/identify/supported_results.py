@@ -15,6 +15,7 @@ from statorhom.identify.simulated_shapes import ShapeGrid, name_and_spectrum, sh
 from statorhom.identify.stage_problem import GATE, PAIRING_SD
 from statorhom.identify.stage_run import StageRun
 from statorhom.identify.stage_setup import TestModes
+from statorhom.model.affine import stator_model
 from statorhom.model.supported_modes import solve_supported
 from statorhom.model.supported_shapes import SupportedModes
 from statorhom.model.supports import support_on
@@ -89,12 +90,13 @@ class _Prediction:
 
     @classmethod
     def of(cls, run: StageRun, test: TestModes, keys: SupportKeys, workers: Workers) -> _Prediction:
-        mesh = run.model.mesh
+        model = stator_model(run.model)
+        mesh = model.mesh
         top = BAND * max(mode.frequency_hz for mode in test.modes)
         support = support_on(mesh, keys)
         materials = run.effects.materials(run.materials)
-        modes = solve_supported(run.model, materials, support, top, margin=MARGIN, mapper=_Mapper(workers))
-        return cls(run, test, modes, name_supported(modes, run.model, materials), shape_grid(mesh))
+        modes = solve_supported(model, materials, support, top, margin=MARGIN, mapper=_Mapper(workers))
+        return cls(run, test, modes, name_supported(modes, model, materials), shape_grid(mesh))
 
     def compared(self, first_shape: int) -> tuple[list[ModeResult], list[ModeShape]]:
         """Results of the test, and the shapes of the modes that were paired."""
@@ -159,7 +161,7 @@ class _Prediction:
         )
 
     def _shape(self, name: SupportedMode) -> ModeShape:
-        grid, mesh = self.grid, self.run.model.mesh
+        grid, mesh = self.grid, stator_model(self.run.model).mesh
         motion = self.modes.motion(grid.points)[..., name.column]
         found, spectrum = name_and_spectrum(grid, motion.reshape(len(grid.planes), len(grid.angles), 3))
         whole = self.modes.full_shape(mesh, name.column)

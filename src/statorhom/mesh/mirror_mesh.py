@@ -42,6 +42,14 @@ class MirrorMesh(PartMesh):
         axis, position = self.mirrors[number]
         return np.asarray(np.abs(self.nodes[:, axis] - position) < TOLERANCE)
 
+    def signs(self, parities: int) -> np.ndarray:
+        """(planes, 3) factors of the components at the image of a point; bit i: the motion is odd at plane i."""
+        signs = np.ones((len(self.mirrors), 3))
+        for i, (axis, _) in enumerate(self.mirrors):
+            signs[i, axis] = -1.0
+            signs[i] *= -1.0 if parities >> i & 1 else 1.0
+        return signs
+
     def full(self) -> tuple[HexMesh, np.ndarray, np.ndarray]:
         """The whole body.
 

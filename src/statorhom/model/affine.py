@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Generic
+from typing import Generic, cast
 
 import numpy as np
 import scipy.sparse as sp
@@ -116,6 +116,19 @@ class AffineModel(Generic[Mesh]):
     def mass_term(self, region: str) -> sp.csr_array:
         """M per unit density of one region."""
         return self.pattern.matrix(self.mass[region])
+
+
+def stator_model(model: AffineModel[PartMesh]) -> AffineModel:
+    """The same model where it can only be a stator's or a tube's.
+
+    Raises
+    ------
+    TypeError
+        If it is of another body.
+    """
+    if not isinstance(model.mesh, HalfPitchMesh):
+        raise TypeError(type(model.mesh))
+    return cast(AffineModel, model)
 
 
 def assemble(mesh: _Mesh) -> AffineModel[_Mesh]:

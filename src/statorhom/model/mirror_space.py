@@ -60,17 +60,8 @@ class MirrorSpace:
 
 def mirror_space(mesh: MirrorMesh, order: int) -> MirrorSpace:
     """The space of a combination of parities; see `MirrorSpace`."""
-    signs = mirror_signs(mesh, order)
+    signs = mesh.signs(order)
     held = np.zeros((len(mesh.nodes), 3), dtype=bool)
     for i, sign in enumerate(signs):
         held |= mesh.on_plane(i)[:, None] & (sign < 0)
     return MirrorSpace(order, signs, np.flatnonzero(~held.ravel()), held.size)
-
-
-def mirror_signs(mesh: MirrorMesh, order: int) -> np.ndarray:
-    """(planes, 3) factors of the components at the mirror image of a point."""
-    signs = np.ones((len(mesh.mirrors), 3))
-    for i, (axis, _) in enumerate(mesh.mirrors):
-        signs[i, axis] = -1.0
-        signs[i] *= -1.0 if order >> i & 1 else 1.0
-    return signs

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import singledispatch
+from typing import cast
 
 import numpy as np
 import scipy.sparse as sp
@@ -30,7 +31,7 @@ Eigenpairs = tuple[Space, np.ndarray, np.ndarray]  # a problem, its λ (k,) and 
 @singledispatch
 def spaces_of(mesh: PartMesh, order: int) -> Sequence[Space]:
     """The problems of a number."""
-    raise TypeError(type(mesh))
+    raise TypeError(f"{type(mesh).__name__} has no problem {order}")
 
 
 @singledispatch
@@ -80,7 +81,7 @@ def _(mesh: HalfPitchMesh) -> Sequence[int]:
 
 @profile_of.register
 def _(mesh: HalfPitchMesh) -> Profile:
-    return radial_profile(mesh)
+    return cast(Profile, radial_profile(mesh))  # the problems of a half pitch are harmonics
 
 
 @spaces_of.register

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Literal
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Materials
@@ -24,6 +25,7 @@ class Joint:
     normal, tangential : stiffness of the contact (N/m³).
     arc : centre and width (rad) of the part where it is weaker, None for the same all around.
     ratio : stiffness within the arc over that of the rest.
+    loss_factor : of the contact.
     """
 
     regions: tuple[str, ...]
@@ -31,6 +33,26 @@ class Joint:
     tangential: float
     arc: tuple[float, float] | None = None
     ratio: float = 1.0
+    loss_factor: float = 0.0
+
+
+@dataclass(frozen=True)
+class Friction:
+    """A contact that slips, element by element of the modal basis.
+
+    Parameters
+    ----------
+    law : "jenkins" or "iwan".
+    share : Jenkins: part of a mode's stiffness that the sticking contact carries. Iwan: relative fall of the stiffness
+        of the softest mode at the highest level.
+    slip_force : at which a Jenkins element slips (N); 0 for Iwan.
+    exponent : χ of Iwan, dissipation ∝ amplitude^(χ+3); 0 for Jenkins.
+    """
+
+    law: Literal["jenkins", "iwan"]
+    share: float
+    slip_force: float = 0.0
+    exponent: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +66,9 @@ class Action:
     materials : from the declared materials of a stage to the true ones.
     changes : from mesh and materials to what breaks the symmetry or varies along the axis.
     joint : a contact in the place of a bond.
+    friction : a contact that slips.
     supports : name of a support → how it really holds.
+    support_losses : name of a support → loss factor of its springs.
     names : (test, label of a measured mode) → its true (r, n).
     symmetries : region → material symmetry that a study would have to declare to contain the effect.
     sensor_kg : mass of an accelerometer that roves over the measured points.
@@ -57,7 +81,9 @@ class Action:
     materials: MaterialRule | None = None
     changes: ChangeRule | None = None
     joint: Joint | None = None
+    friction: Friction | None = None
     supports: Mapping[str, SupportKeys] = field(default_factory=dict)
+    support_losses: Mapping[str, float] = field(default_factory=dict)
     names: Mapping[tuple[str, str], tuple[int, int]] = field(default_factory=dict)
     symmetries: Mapping[str, str] = field(default_factory=dict)
     sensor_kg: float = 0.0

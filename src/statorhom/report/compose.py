@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from statorhom.report.context import Step, steps_of
+from statorhom.report.context import Step, coupon_of, steps_of
 from statorhom.report.document import Document, Section
 from statorhom.report.sections.assumptions import assumptions
 from statorhom.report.sections.damping import damping
@@ -44,11 +44,13 @@ def compose(results: Results, folder: Path) -> Document:
         sensitivity(steps),
         damping(steps),
         assumptions(steps),
-        glossary(),
+        glossary(steps),
     )
     sections = tuple(section for section in candidates if section is not None)
     return Document(
-        "Materials of a stator, from its weight and its modes",
+        f"Material of a {coupon}, from its weight and its modes"
+        if (coupon := coupon_of(steps)) is not None
+        else "Materials of a stator, from its weight and its modes",
         one_line(results.study),
         _facts(results, steps),
         sections,

@@ -7,11 +7,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from statorhom.errors import ResultsError
+from statorhom.mesh.mirror_mesh import MirrorMesh
+from statorhom.report.figures.block_picture import DrawnBlock
 from statorhom.report.figures.shape_picture import DrawnStator
 from statorhom.results import Constant, ModeResult, RegionResult, Results, StageResult
 from statorhom.results.full_surface import full_surface
 from statorhom.results.shape_file import ShapeFile, read_shape_file
 from statorhom.study.message import one_line
+from statorhom.study.regions import COUPON
 
 
 @dataclass(frozen=True)
@@ -19,7 +22,11 @@ class DrawnShapes:
     """A step's shape file and the surface its pictures share."""
 
     file: ShapeFile
-    stator: DrawnStator
+    body: DrawnStator | DrawnBlock
+
+    def picture(self, number: int) -> bytes:
+        """PNG of a mode."""
+        return self.body.picture(self.file.displacement(self.body.surface, self.file.modes[number]))
 
 
 @dataclass(frozen=True)
@@ -29,6 +36,16 @@ class Step:
     result: StageResult
     before: StageResult | None
     shapes: DrawnShapes | None
+
+    @property
+    def coupon(self) -> str | None:
+        """What a coupon is, by its region: a plate, a beam or a tube; None of a stator."""
+        return next(iter(self.result.regions), "coupon") if self.result.kind == COUPON else None
+
+    @property
+    def is_block(self) -> bool:
+        """Whether it is a coupon whose modes have no orders around a circumference."""
+        return self.coupon is not None and self.coupon != "tube"
 
     @property
     def new_regions(self) -> dict[str, RegionResult]:
@@ -80,6 +97,16 @@ def steps_of(results: Results, folder: Path) -> tuple[Step, ...]:
     )
 
 
+def coupon_of(steps: Sequence[Step]) -> str | None:
+    """What the coupon of a study is; None for a stator's."""
+    return steps[0].coupon if steps else None
+
+
+def are_blocks(steps: Sequence[Step]) -> bool:
+    """Whether the study is of a plate or a beam."""
+    return bool(steps) and steps[0].is_block
+
+
 def tests_of(modes: Sequence[ModeResult]) -> list[str]:
     """Names of the tests, in the order in which they appear."""
     return list(dict.fromkeys(mode.test for mode in modes))
@@ -112,4 +139,6 @@ def _shapes(stage: StageResult, folder: Path) -> DrawnShapes | None:
     if not there:
         return None
     file = read_shape_file(path)
-    return DrawnShapes(file, DrawnStator.of(full_surface(file.mesh)))
+    surface = full_surface(file.mesh)
+    body = DrawnBlock.of(surface) if isinstance(file.mesh, MirrorMesh) else DrawnStator.of(surface)
+    return DrawnShapes(file, body)

@@ -12,9 +12,9 @@ NOTHING = "–"
 _MEANING = {
     "E_pa": "Young’s modulus",
     "nu": "Poisson’s ratio",
-    "E_p_pa": "Young’s modulus in the r–θ plane",
+    "E_p_pa": "Young’s modulus in the plane",
     "E_z_pa": "Young’s modulus along z",
-    "nu_p": "Poisson’s ratio within the r–θ plane",
+    "nu_p": "Poisson’s ratio within the plane",
     "nu_pz": "Poisson’s ratio, along z under load in the plane",
     "G_rz_pa": "Shear modulus between the plane and z",
     "E_r_pa": "Young’s modulus, radial",
@@ -24,11 +24,22 @@ _MEANING = {
     "nu_tz": "Poisson’s ratio, along z under load along θ",
     "G_rt_pa": "Shear modulus in the r–θ plane",
     "G_tz_pa": "Shear modulus between θ and z",
+    "E_1_pa": "Young’s modulus along 1",
+    "E_2_pa": "Young’s modulus along 2",
+    "E_3_pa": "Young’s modulus along 3",
+    "nu_12": "Poisson’s ratio, along 2 under load along 1",
+    "nu_13": "Poisson’s ratio, along 3 under load along 1",
+    "nu_23": "Poisson’s ratio, along 3 under load along 2",
+    "G_12_pa": "Shear modulus between 1 and 2",
+    "G_13_pa": "Shear modulus between 1 and 3",
+    "G_23_pa": "Shear modulus between 2 and 3",
 }
+AXES_OF_ROUND = ("r", "θ", "z")
+AXES_OF_BLOCKS = ("x", "y", "z")
 _SYMMETRY = {
     "isotropic": "isotropic (the same in all directions)",
-    "transversely_isotropic": "transversely isotropic (the same in all r–θ directions, different along z)",
-    "orthotropic": "orthotropic (different along r, θ and z)",
+    "transversely_isotropic": "transversely isotropic (the same in all {0}–{1} directions, different along {2})",
+    "orthotropic": "orthotropic (different along {0}, {1} and {2})",
 }
 _KIND = {
     "stack": "lamination stack",
@@ -40,9 +51,14 @@ _KIND = {
 }
 _MODE_KIND = {
     "torsion": "torsion of the core",
+    "torsion about x": "torsion about x",
     "axial": "axial motion",
     "winding": "motion of the winding",
     "radial": "radial motion",
+    "bending": "bending",
+    "in plane": "in-plane motion",
+    "bending along y": "bending along y",
+    "bending along z": "bending along z",
 }
 _NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 _SUBSCRIPT = {"t": "θ"}
@@ -70,9 +86,9 @@ def constant_meaning(name: str) -> str:
     return _MEANING.get(name, "")
 
 
-def symmetry_words(symmetry: str) -> str:
+def symmetry_words(symmetry: str, axes: tuple[str, str, str] = AXES_OF_ROUND) -> str:
     """A symmetry in words."""
-    return _SYMMETRY.get(symmetry, symmetry)
+    return _SYMMETRY[symmetry].format(*axes) if symmetry in _SYMMETRY else symmetry
 
 
 def step_words(kind: str) -> str:

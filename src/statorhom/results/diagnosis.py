@@ -160,6 +160,14 @@ class MachineRow(_Part):
     slots: int
 
 
+class OptionRow(_Part):
+    """A measurement that could be made next: hours of work, and the log evidence that it is expected to bring."""
+
+    what: str
+    hours: float
+    log_evidence: float
+
+
 class RefittedRow(_Part):
     """A constant of the chain identified without and with what was left out."""
 
@@ -212,6 +220,7 @@ class Details(_Part):
     maps: tuple[MapRow, ...] = ()
     opposite: tuple[OppositeRow, ...] = ()
     summaries: dict[str, str] = Field(default_factory=dict)
+    options: tuple[OptionRow, ...] = ()
     refitted: tuple[RefittedRow, ...] = ()
     refit_note: str | None = None
 

@@ -1,4 +1,4 @@
-"""The visible surface of the whole stator, copied from half a slot pitch, and mode shapes on it."""
+"""The visible surface of the whole stator or block, copied from its part, and mode shapes on it."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from statorhom.mesh.hex_mesh import MIRRORED, HalfPitchMesh
+from statorhom.mesh.mirror_mesh import MirrorMesh
 
 # the six faces of a hexahedron: corners counterclockwise seen from outside, then the nodes between them
 _FACES = np.array(
@@ -37,7 +38,8 @@ class FullSurface:
     region : (q,) index into the mesh's regions.
     full_node : (f,) number of each node in the whole mesh.
     source : (f,) node of the half pitch it was copied from.
-    copy : (f,) half pitch it belongs to: 2 k, or 2 k + 1 for the mirror image, in pitch k.
+    copy : (f,) half pitch it belongs to: 2 k, or 2 k + 1 for the mirror image, in pitch k. Of a block: bit i is set
+        where it was mirrored at plane i.
     """
 
     nodes: np.ndarray
@@ -52,8 +54,10 @@ class FullSurface:
             array.setflags(write=False)
 
 
-def full_surface(mesh: HalfPitchMesh) -> FullSurface:
-    """The whole stator's outer faces, without those between its half pitches."""
+def full_surface(mesh: HalfPitchMesh | MirrorMesh) -> FullSurface:
+    """The whole body's outer faces, without those between its copied parts."""
+    if isinstance(mesh, MirrorMesh):
+        return _mirrored_surface(mesh)
     full, source, copy = mesh.full()
     element, local = _outer_faces(mesh)
     numbers = np.arange(2 * mesh.slots)[:, None] * len(mesh.elements) + element
@@ -63,6 +67,26 @@ def full_surface(mesh: HalfPitchMesh) -> FullSurface:
     used, compact = np.unique(quads, return_inverse=True)
     region = np.tile(mesh.region[element], 2 * mesh.slots)
     return FullSurface(full.nodes[used], compact.reshape(quads.shape), region, used, source[used], copy[used])
+
+
+def _mirrored_surface(mesh: MirrorMesh) -> FullSurface:
+    full, source, mirrored = mesh.full()
+    element, local = _boundary(full.elements)
+    quads = full.elements[element[:, None], local]
+    used, compact = np.unique(quads, return_inverse=True)
+    copy = mirrored[used] @ 2 ** np.arange(mirrored.shape[1])
+    region = full.region[element]
+    return FullSurface(full.nodes[used], compact.reshape(quads.shape), region, used, source[used], copy)
+
+
+def expand_mirrored(
+    surface: FullSurface, mesh: MirrorMesh, parities: int, displacement: np.ndarray
+) -> np.ndarray:
+    """Displacement (f, 3) on the whole surface of a shape (n, 3) of the part with given parities."""
+    moved = displacement[surface.source].real
+    for i, sign in enumerate(mesh.signs(parities)):
+        moved = np.where((surface.copy >> i & 1)[:, None] == 1, moved * sign, moved)
+    return np.asarray(moved)
 
 
 def expand_cyclic(surface: FullSurface, slots: int, harmonic: int, displacement: np.ndarray) -> np.ndarray:

@@ -79,6 +79,7 @@ class Convergence(_Frozen):
     frequency_hz: tuple[float, ...]
     extrapolated_hz: float
     sd_percent: float
+    kind: str | None = None  # of motion, where modes have no orders
 
 
 class Sensitivity(_Frozen):

@@ -1,7 +1,8 @@
 """Shapes of a stage's simulated modes, `shapes/<stage>.npz`: what the report's pictures are drawn from.
 
 A mode of a free stator is stored on half a slot pitch with its harmonic; a mode of a supported one is a sum
-of harmonics and stored on the nodes of the whole surface (`full_surface`).
+of harmonics and stored on the nodes of the whole surface (`full_surface`). A block's is stored on the part that its
+planes of symmetry leave.
 """
 
 from __future__ import annotations
@@ -18,7 +19,8 @@ import numpy as np
 
 from statorhom.errors import ResultsError
 from statorhom.mesh.hex_mesh import HalfPitchMesh
-from statorhom.results.full_surface import FullSurface, expand_cyclic, full_surface
+from statorhom.mesh.mirror_mesh import MirrorMesh
+from statorhom.results.full_surface import FullSurface, expand_cyclic, expand_mirrored, full_surface
 from statorhom.study.atomic import write_bytes
 from statorhom.study.message import one_line
 
@@ -38,9 +40,9 @@ class ModeShape:
         (n, 3) complex cylindrical components of the half pitch's nodes where `harmonic` is given, else
         (f, 3) real ones of the nodes of `full_surface(mesh)`. Any scale.
     harmonic : int or None
-        Circumferential harmonic h of a free stator's mode; None for a sum of harmonics.
+        Circumferential harmonic h of a free stator's mode; None for a sum of harmonics. Parities of a block's mode.
     parity : str
-        "pair", "even" or "odd" ("" for a sum of harmonics).
+        "pair", "even" or "odd" ("" for a sum of harmonics); "mirror" for a block's mode.
     order, axial : int or None
         Name (r, n).
     kind : str
@@ -71,14 +73,14 @@ class ShapeFile:
 
     Parameters
     ----------
-    mesh : HalfPitchMesh
+    mesh : HalfPitchMesh or MirrorMesh
     planes_m : ndarray, shape (planes,)
-        Axial positions of the planes of every mode's order spectrum.
+        Axial positions of the planes of every mode's order spectrum; none of a block.
     modes : tuple of ModeShape
         `ModeResult.shape` counts them from 0.
     """
 
-    mesh: HalfPitchMesh
+    mesh: HalfPitchMesh | MirrorMesh
     planes_m: np.ndarray
     modes: tuple[ModeShape, ...]
 
@@ -86,9 +88,11 @@ class ShapeFile:
         self.planes_m.setflags(write=False)
 
     def displacement(self, surface: FullSurface, mode: ModeShape) -> np.ndarray:
-        """Real cylindrical displacement (f, 3) of a mode on the nodes of `full_surface(self.mesh)`."""
+        """Real displacement (f, 3) of a mode on the nodes of `full_surface(self.mesh)`, in the mesh's axes."""
         if mode.harmonic is None:
             return mode.displacement
+        if isinstance(self.mesh, MirrorMesh):
+            return expand_mirrored(surface, self.mesh, mode.harmonic, mode.displacement)
         return expand_cyclic(surface, self.mesh.slots, mode.harmonic, mode.displacement)
 
 
@@ -127,13 +131,23 @@ def read_shape_file(path: Path) -> ShapeFile:
     return shapes
 
 
-def _mesh_arrays(mesh: HalfPitchMesh) -> dict[str, Any]:
-    return {
+def _mesh_arrays(mesh: HalfPitchMesh | MirrorMesh) -> dict[str, Any]:
+    common = {
         "format": FORMAT,
         "nodes": mesh.nodes,
         "elements": mesh.elements.astype(np.int32),
         "region": mesh.region.astype(np.int16),
         "regions": np.array(mesh.regions, dtype=np.str_),
+    }
+    if isinstance(mesh, MirrorMesh):
+        axes, positions = zip(*mesh.mirrors, strict=True) if mesh.mirrors else ((), ())
+        return {
+            **common,
+            "mirror_axes": np.array(axes, dtype=np.int32),
+            "mirror_positions": np.array(positions, dtype=float),
+        }
+    return {
+        **common,
         "slots": mesh.slots,
         "length": mesh.length,
         "outer_radius": mesh.outer_radius,
@@ -178,37 +192,54 @@ def _shape_file(arrays: Mapping[str, np.ndarray]) -> ShapeFile:
     return ShapeFile(mesh, np.array(arrays["planes_m"], dtype=float), _modes(arrays, mesh))
 
 
-def _mesh(arrays: Mapping[str, np.ndarray]) -> HalfPitchMesh:
-    nodes, elements = arrays["nodes"], arrays["elements"].astype(np.int64)
+def _mesh(arrays: Mapping[str, np.ndarray]) -> HalfPitchMesh | MirrorMesh:
+    mesh = _block(arrays) if "mirror_axes" in arrays else _half_pitch(arrays)
+    _check_mesh(mesh)
+    return mesh
+
+
+def _block(arrays: Mapping[str, np.ndarray]) -> MirrorMesh:
+    axes, positions = arrays["mirror_axes"], arrays["mirror_positions"]
+    if len(set(axes.tolist())) < len(axes) or not _within(axes, 3) or not np.isfinite(positions).all():
+        raise ValueError("its planes of symmetry contradict each other")
+    mirrors = tuple((int(a), float(p)) for a, p in zip(axes, positions, strict=True))
+    return MirrorMesh(*_elements(arrays), mirrors=mirrors)
+
+
+def _elements(
+    arrays: Mapping[str, np.ndarray],
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, tuple[str, ...]]:
     regions = tuple(str(name) for name in arrays["regions"])
-    mesh = HalfPitchMesh(
-        nodes,
-        elements,
-        arrays["region"].astype(np.int64),
-        regions,
+    return arrays["nodes"], arrays["elements"].astype(np.int64), arrays["region"].astype(np.int64), regions
+
+
+def _half_pitch(arrays: Mapping[str, np.ndarray]) -> HalfPitchMesh:
+    return HalfPitchMesh(
+        *_elements(arrays),
         slots=int(arrays["slots"]),
         length=float(arrays["length"]),
         outer_radius=float(arrays["outer_radius"]),
         tooth_plane=arrays["tooth_plane"].astype(np.int64),
         slot_plane=arrays["slot_plane"].astype(np.int64),
     )
-    _check_mesh(mesh)
-    return mesh
 
 
-def _check_mesh(mesh: HalfPitchMesh) -> None:
+def _check_mesh(mesh: HalfPitchMesh | MirrorMesh) -> None:
     n = len(mesh.nodes)
+    round_ = isinstance(mesh, MirrorMesh) or (
+        _within(mesh.tooth_plane, n)
+        and _within(mesh.slot_plane, n)
+        and mesh.slots > 0
+        and np.isfinite([mesh.length, mesh.outer_radius]).all()
+    )
     whole = (
-        mesh.nodes.shape == (n, 3)
+        round_
+        and mesh.nodes.shape == (n, 3)
         and np.isfinite(mesh.nodes).all()
         and mesh.elements.shape == (len(mesh.region), 20)
         and len(mesh.region) > 0
         and _within(mesh.elements, n)
-        and _within(mesh.tooth_plane, n)
-        and _within(mesh.slot_plane, n)
         and _within(mesh.region, len(mesh.regions))
-        and mesh.slots > 0
-        and np.isfinite([mesh.length, mesh.outer_radius]).all()
     )
     if not whole:
         raise ValueError("its mesh contradicts itself")
@@ -218,7 +249,7 @@ def _within(numbers: np.ndarray, count: int) -> bool:
     return bool(np.all((numbers >= 0) & (numbers < count)))
 
 
-def _modes(arrays: Mapping[str, np.ndarray], mesh: HalfPitchMesh) -> tuple[ModeShape, ...]:
+def _modes(arrays: Mapping[str, np.ndarray], mesh: HalfPitchMesh | MirrorMesh) -> tuple[ModeShape, ...]:
     cyclic, summed = arrays["displacement"], arrays["full_displacement"]
     spectrum, harmonic = arrays["spectrum"], arrays["harmonic"]
     _check_modes(cyclic, summed, spectrum, harmonic, arrays["planes_m"], mesh)
@@ -244,7 +275,7 @@ def _check_modes(
     spectrum: np.ndarray,
     harmonic: np.ndarray,
     planes: np.ndarray,
-    mesh: HalfPitchMesh,
+    mesh: HalfPitchMesh | MirrorMesh,
 ) -> None:
     count = int(np.count_nonzero(harmonic >= 0)), int(np.count_nonzero(harmonic < 0))
     whole = (

@@ -118,9 +118,12 @@ def _refuse_repeated(what: str, names: list[str]) -> None:
 
 def _check_coupon(study: StudyFile) -> None:
     """A test piece is made in one step and hangs free."""
+    stage = next(stage for stage in study.stages if stage.kind == COUPON)
     if len(study.stages) > 1:
-        raise ValueError("stages: a coupon has one stage; delete the others or write a study of their own")
-    stage = study.stages[0]
+        raise ValueError(
+            f"stages[{stage.name}].kind: a coupon is the one stage of its study; delete the other stages or use "
+            f"one of {', '.join(STAGE_KINDS)}"
+        )
     if not stage.model.declared:
         regions = " or ".join(REGIONS_OF_KIND[COUPON])
         raise ValueError(

@@ -11,7 +11,7 @@ from small_stators import MATERIALS, stator_mesh
 from statorhom.errors import SolverError
 from statorhom.model.affine import assemble
 from statorhom.model.cyclic.condensed import condensed, eliminated, modes_under, multiplied
-from statorhom.model.cyclic.half_pitch import half_pitch, half_pitches, phases
+from statorhom.model.cyclic.half_pitch import columns, half_pitch, half_pitches, phases
 from statorhom.model.cyclic.modes import modes_of
 from statorhom.model.harmonic import all_orders, spaces_of
 from statorhom.model.pitch_parts import pitch_parts

@@ -45,6 +45,7 @@ class ProblemBasis:
     soft : the same problem of the softest symmetric stator.
     values : (w,) Ritz values of the vectors (rad²/s²).
     vectors : (m, w) coordinates of unit modal mass.
+    elastic, inertial : (m, w) K and M times the vectors.
     probes : (m, t) random vectors with covariance (K' + σM)⁻¹.
     """
 
@@ -52,11 +53,20 @@ class ProblemBasis:
     soft: Sector
     values: np.ndarray
     vectors: np.ndarray
+    elastic: np.ndarray
+    inertial: np.ndarray
     probes: np.ndarray
 
     def __post_init__(self) -> None:
-        for array in (self.values, self.vectors, self.probes):
+        for array in (self.values, self.vectors, self.elastic, self.inertial, self.probes):
             array.setflags(write=False)
+
+    def lowest(self, count: int) -> ProblemBasis:
+        """The first vectors only."""
+        arrays = {
+            name: getattr(self, name)[..., :count] for name in ("values", "vectors", "elastic", "inertial")
+        }
+        return replace(self, **arrays)
 
     @cached_property
     def surface_products(self) -> tuple[np.ndarray, np.ndarray]:
@@ -125,8 +135,8 @@ class SymmetricBasis:
     def probed(self) -> tuple[np.ndarray, np.ndarray]:
         """ζᵀKW and ζᵀMW between all coordinates of the probes and of the basis."""
         found = []
-        for name in ("K", "M"):
-            blocks = [p.probes.T @ (getattr(p.sector, name) @ p.vectors) for p in self.problems]
+        for images in ([p.elastic for p in self.problems], [p.inertial for p in self.problems]):
+            blocks = [p.probes.T @ image for p, image in zip(self.problems, images, strict=True)]
             columns = sp.block_diag(blocks, format="csr").toarray()
             cosine = columns[np.ix_(self.probes.cosine, self.waves.cosine)]
             sine = columns[np.ix_(self.probes.sine, self.waves.sine)]
@@ -152,7 +162,7 @@ class SymmetricBasis:
         problems = []
         for p in self.problems:
             count = int(np.count_nonzero(p.values <= top))
-            problems.append(replace(p, values=p.values[:count], vectors=p.vectors[:, :count]))
+            problems.append(p.lowest(count))
         return replace(self, problems=tuple(problems), cut_hz=min(cut_hz, self.cut_hz), grams=GramCache())
 
     def _waves(self, vectors: list[np.ndarray]) -> Waves:
@@ -220,8 +230,9 @@ def solved_problems(
     with one_blas_thread():
         for sector, (values, vectors) in zip(sectors, pairs, strict=True):
             vectors = vectors / np.sqrt(sector.space.copies)
+            images = sector.K @ vectors, sector.M @ vectors
             drawn = probes(sector.problem) if certified else np.empty((sector.space.size, 0))
-            found.append(ProblemBasis(sector, sector, values, vectors, drawn))
+            found.append(ProblemBasis(sector, sector, values, vectors, *images, drawn))
     return tuple(found)
 
 

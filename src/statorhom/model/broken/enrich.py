@@ -47,19 +47,23 @@ def enriched(
 def extended(problem: ProblemBasis, vectors: np.ndarray, least: float) -> ProblemBasis:
     """A problem's basis with the directions of `vectors` whose (K + σM)-norm squared is more than `least`."""
     W, K, M, shift = problem.vectors, problem.sector.K, problem.sector.M, problem.sector.shift
-    new = vectors - W @ (W.T @ (M @ vectors))
-    new -= W @ (W.T @ (M @ new))
-    energy, rotation = np.linalg.eigh(new.T @ (K @ new) + shift * (new.T @ (M @ new)))
-    new = new @ rotation[:, energy > least]
-    gram = new.T @ (M @ new)
+    new = vectors - W @ (problem.inertial.T @ vectors)
+    new -= W @ (problem.inertial.T @ new)
+    elastic, inertial = K @ new, M @ new
+    energy, rotation = np.linalg.eigh(new.T @ elastic + shift * (new.T @ inertial))
+    rotation = rotation[:, energy > least]
+    gram = rotation.T @ (new.T @ inertial) @ rotation
     scale = 1 / np.sqrt(np.diag(gram))
-    gram, rotation = np.linalg.eigh(gram * scale * scale[:, None])
+    gram, turn = np.linalg.eigh(gram * scale * scale[:, None])
     keep = gram > DROP
-    new = (new * scale) @ (rotation[:, keep] / np.sqrt(gram[keep]))
-    joined = np.hstack([W, new])
-    stiffness, mass = joined.T @ (K @ joined), joined.T @ (M @ joined)
-    values, vectors = eigh((stiffness + stiffness.T) / 2, (mass + mass.T) / 2)
-    return replace(problem, values=values, vectors=joined @ vectors)
+    rotation = (rotation * scale) @ (turn[:, keep] / np.sqrt(gram[keep]))
+    joined = np.hstack([W, new @ rotation])
+    elastic = np.hstack([problem.elastic, elastic @ rotation])
+    inertial = np.hstack([problem.inertial, inertial @ rotation])
+    stiffness, mass = joined.T @ elastic, joined.T @ inertial
+    values, turn = eigh((stiffness + stiffness.T) / 2, (mass + mass.T) / 2)
+    images = {"vectors": joined @ turn, "elastic": elastic @ turn, "inertial": inertial @ turn}
+    return replace(problem, values=values, **images)
 
 
 def _residual(
@@ -69,13 +73,15 @@ def _residual(
     problem, own = basis.problems[number], coupled.statics
     size = len(basis.values)
     q, f = x[:size], x[size:]
-    y = problem.vectors @ q[basis.places[number][sine]]
+    sector, mine = problem.sector, q[basis.places[number][sine]]
+    residual = problem.elastic @ mine - (problem.inertial @ mine) * values
     if len(own):
-        y = y + own.responses[number][sine] @ f
-    motion = own.rows @ q + own.flexibility @ f
-    reaction = own.stiffness @ motion - (own.mass @ motion) * values
-    residual = problem.sector.K @ y - (problem.sector.M @ y) * values
-    residual[problem.sector.loaded] += own.loads[number][sine] @ reaction
+        # K Y = Lᵀ - σ M Y
+        load = own.loads[number][sine]
+        residual -= (sector.inertial @ (load @ f)) * (sector.shift + values)
+        motion = own.rows @ q + own.flexibility @ f
+        reaction = own.stiffness @ motion - (own.mass @ motion) * values
+        residual[sector.loaded] += load @ (f + reaction)
     return np.asarray(residual)
 
 

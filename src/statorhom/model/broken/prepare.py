@@ -71,5 +71,4 @@ def _compressed(
         for place in basis.places[number].values()
     ]
     count = int(np.count_nonzero(problem.values <= (2 * np.pi * basis.highest_hz) ** 2))
-    own = replace(problem, values=problem.values[:count], vectors=problem.vectors[:, :count])
-    return extended(own, np.hstack(parts), least)
+    return extended(problem.lowest(count), np.hstack(parts), least)

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.stats import chi2
-from threadpoolctl import threadpool_limits
 
 from statorhom.errors import SolverError
+from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.broken.basis import PROBES, SymmetricBasis
 from statorhom.model.broken.change import Change, PieceChange
 from statorhom.model.broken.coupling import Coupled, couple
@@ -83,8 +83,8 @@ class BrokenModes:
             local[side] = on_surface[side] @ mirrored[order]
             turn = np.exp(2j * np.pi / slots * (order * points.pitch % slots))
             total += (local * np.repeat(turn, 3)[:, None]).real
-        total = total.reshape(len(points), 3, len(self))
-        return np.where(points.mirrored[:, None, None], _MIRROR[:, None], 1.0) * total
+        sign = np.where(points.mirrored[:, None, None], _MIRROR[:, None], 1.0)
+        return np.asarray(sign * total.reshape(len(points), 3, len(self)))
 
     def _surface_waves(self) -> tuple[dict[int, np.ndarray], dict[int, np.ndarray]]:
         """Per harmonic: (d, modes) complex motion of the surface of a straight half pitch, and of a mirrored one.
@@ -142,7 +142,7 @@ def solve_broken(
     SolverError
         If the tolerance cannot be met, or the changes leave a mass or a stiffness that is not definite.
     """
-    with threadpool_limits(limits=1, user_api="blas"):
+    with one_blas_thread():
         if tolerance is None:
             return _within(_solve(basis, changes))
         basis = softened(basis, [c for c in changes if isinstance(c, PieceChange)])

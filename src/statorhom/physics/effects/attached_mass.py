@@ -14,10 +14,10 @@ from statorhom.physics.effect import Confusion, Effect
 from statorhom.physics.parameter import EffectParameter, angle, height
 from statorhom.study.study import StudyFiles
 
-FOOT_M = (
-    0.012  # of a lump whose shape nobody knows: terminal boxes, lugs and weights are a centimetre or two wide
-)
-HEIGHT_M = 0.008  # of its centre of gravity above the surface
+# Terminal boxes, lugs and weights: how high their centre of gravity lies decides how much the tangential motion, and
+# with it the split of the lowest orders, counts; the mass is not known better than that.
+HEIGHT_MM = EffectParameter("cog_height_mm", 3.0, 20.0, 0.5, 60.0, "log", (8.0,), None)
+FOOT = 1.5  # side of the foot over the height of the centre of gravity
 LARGEST = 0.2  # of the stage's mass
 
 
@@ -31,7 +31,9 @@ class AttachedMass(Effect):
         ),
         Confusion("ovality", "several orders r split"),
     )
-    note = "a rigid cube on a 12 mm foot, centre of gravity 8 mm above the surface, not on the scale"
+    note = (
+        "a rigid cube on a square foot 1.5 times as wide as its centre of gravity is high, not on the scale"
+    )
 
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         length = files.geometry.core.length_mm / 1e3
@@ -45,17 +47,18 @@ class AttachedMass(Effect):
             )
             # foot and all on the surface
             place = height(length)
-            found.append(Candidate(self.name, stage.name, (mass, angle(), place), "lamination"))
+            found.append(Candidate(self.name, stage.name, (mass, HEIGHT_MM, angle(), place), "lamination"))
         return tuple(found)
 
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
         length = files.geometry.core.length_mm / 1e3
-        foot = min(FOOT_M, 0.5 * length)
+        above = values["cog_height_mm"] / 1e3
+        foot = min(FOOT * above, 0.5 * length)
         z = min(max(values["z_m"], 0.51 * foot), length - 0.51 * foot)
 
         def changes(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
             del materials
-            lump = footed_lump(mesh, values["angle_rad"], z, values["mass_kg"], foot=foot, height=HEIGHT_M)
+            lump = footed_lump(mesh, values["angle_rad"], z, values["mass_kg"], foot=foot, height=above)
             return (lump,)
 
         return Action(changes=changes, stages=frozenset({candidate.stage}))

@@ -16,6 +16,7 @@ from statorhom.study.study import StudyFiles
 INTACT = 1e14  # N/m³: stiff enough to be a bond for all modes of the band
 ARC = EffectParameter("arc_deg", 20.0, 180.0, 5.0, 330.0, "log", (60.0, 120.0), None)
 RATIO = EffectParameter("contact_ratio", 1e-4, 0.5, 1e-5, 1.0, "log", (0.01,), 1.0)
+LOSS = EffectParameter("contact_loss_factor", 0.005, 0.3, 1e-4, 2.0, "log", (0.03,), None)
 
 
 class InterfaceDebond(Effect):
@@ -27,14 +28,21 @@ class InterfaceDebond(Effect):
 
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         return tuple(
-            Candidate(self.name, stage.name, (ARC, RATIO, angle()), "winding")
+            Candidate(self.name, stage.name, (ARC, RATIO, LOSS, angle()), "winding")
             for stage in files.study.stages
             if stage.kind in WINDING_STEPS and stage.tests
         )
 
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
         arc = (values["angle_rad"], float(np.deg2rad(values["arc_deg"])))
-        joint = Joint(("winding", "overhang"), INTACT, INTACT, arc, values["contact_ratio"])
+        joint = Joint(
+            ("winding", "overhang"),
+            INTACT,
+            INTACT,
+            arc,
+            values["contact_ratio"],
+            values["contact_loss_factor"],
+        )
         return Action(joint=joint, stages=frozenset({candidate.stage}))
 
 

@@ -13,6 +13,7 @@ from statorhom.study.supports import FaceSupport, LineSupport, SupportKeys
 
 NORMAL = EffectParameter("normal_stiffness_n_per_m2", 3e8, 1e11, 1e7, 1e13, "log", (1e10, 1e9, 1e11), None)
 AREA = EffectParameter("normal_stiffness_n_per_m3", 1e10, 1e13, 1e9, 1e15, "log", (3e11, 1e13), None)
+LOSS = EffectParameter("loss_factor", 0.005, 0.2, 1e-4, 2.0, "log", (0.03,), None)
 RATIO = EffectParameter("tangential_ratio", 0.2, 1.5, 0.02, 4.0, "log", (0.7,), None)
 
 
@@ -21,6 +22,7 @@ class SupportCompliance(Effect):
     summary = "a support that is declared rigid is elastic"
     citation = "Ewins (2000), Modal Testing, section 3.2"
     confused_with = (Confusion("temperature_shift", "the free test: only the supported one is off"),)
+    note = "springs along the lines, per metre of length, stiffness times 1 + i loss_factor"
 
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         found = []
@@ -32,13 +34,13 @@ class SupportCompliance(Effect):
                 stage, test = tests[0]
                 normal = NORMAL if isinstance(support, LineSupport) else AREA
                 choice = (("support", support.name),)
-                found.append(Candidate(self.name, stage, (normal, RATIO), None, test, choice))
+                found.append(Candidate(self.name, stage, (normal, RATIO, LOSS), None, test, choice))
         return tuple(found)
 
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
         name = str(candidate.chosen["support"])
         keys = next(s for s in files.study.supports if s.name == name)
-        return Action(supports={name: elastic(keys, values)})
+        return Action(supports={name: elastic(keys, values)}, support_losses={name: values["loss_factor"]})
 
     def reported(self, candidate: Candidate, values: Mapping[str, float]) -> dict[str, float | str]:
         return {p.name: values[p.name] for p in candidate.parameters}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from statorhom.report.diagnosis.next_steps import next_steps
 from statorhom.report.diagnosis.words import VERDICTS, effect_words, place_words, sizes_words
 from statorhom.report.document import Block, Notice, Paragraph, Section, Text, strong, text
 from statorhom.results.diagnosis import Details, Diagnosis, EffectResult
@@ -15,11 +16,7 @@ def verdict_section(d: Diagnosis, details: Details) -> Section:
         blocks.append(Notice(_title(effect.effect), _lines(effect, details)))
     if d.verdict == "ambiguous":
         blocks.append(Notice("What it may be", tuple(_alternatives(d, details)), "warning"))
-    if d.next_measurement is not None:
-        n = d.next_measurement
-        names = " from ".join(effect_words(name) for name in n.separates[:2])
-        items = [text(strong(n.what)), text(f"It would tell {names}." if len(n.separates) > 1 else "")]
-        blocks.append(Notice("What to measure next", tuple(i for i in items if i and i[0].text)))
+    blocks += next_steps(d, details)
     return Section("What the model left out", tuple(blocks))
 
 

@@ -38,7 +38,7 @@ def convergence_plot(series: Sequence[Convergence]) -> bytes:
     ticks = _ticks({n for c in series for n in c.dof})
     axes.set_xticks(ticks, labels=[f"{n / 1000:.0f} 000" if n >= 1000 else str(n) for n in ticks])
     axes.minorticks_off()
-    axes.set_xlabel("degrees of freedom of the whole stator")
+    axes.set_xlabel("degrees of freedom of the whole model")
     axes.set_ylabel("above the extrapolated\nfrequency in %")
     axes.legend(
         handles=[Line2D([], [], color=colour, label=order) for order, colour in colours.items()],
@@ -49,7 +49,9 @@ def convergence_plot(series: Sequence[Convergence]) -> bytes:
 
 
 def _order(mode: Convergence) -> str:
-    return "no order" if mode.order is None else f"r = {mode.order}"
+    if mode.order is None:
+        return mode.kind or "no order"
+    return f"r = {mode.order}"
 
 
 def _colours(series: Sequence[Convergence]) -> dict[str, str]:

@@ -38,6 +38,10 @@ class DrawnStator:
         outer = np.flatnonzero(r > size * (1 - _ON_SURFACE))
         return cls(surface, size, angle, outer)
 
+    def picture(self, displacement: np.ndarray) -> bytes:
+        """See `shape_picture`."""
+        return shape_picture(self, displacement)
+
 
 def shape_picture(stator: DrawnStator, displacement: np.ndarray) -> bytes:
     """PNG of one mode; `displacement` (f, 3) in cylindrical components, any scale."""

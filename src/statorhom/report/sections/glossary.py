@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from statorhom.report.context import Step, are_blocks, coupon_of
 from statorhom.report.document import Definitions, Section, strong, text
 
 _TERMS = (
@@ -25,12 +28,12 @@ _TERMS = (
     ),
     (
         "Homogenized material",
-        "One uniform material that moves as the mixture of sheets, wires and resin does; direction r is "
-        "radial, θ tangential, z axial.",
+        "One uniform material that moves as the mixture of sheets, wires and resin does. Of round parts, "
+        "direction r is radial, θ tangential, z axial.",
     ),
     (
         "Free test",
-        "The stator hangs on something soft and moves as if nothing held it.",
+        "The tested object hangs on something soft and moves as if nothing held it.",
     ),
     (
         "Supported test",
@@ -79,6 +82,13 @@ _TERMS = (
 )
 
 
-def glossary() -> Section:
+# what is said of stators only, and of all that is round
+_OF_STATORS = {"Step", "Region", "Supported test"}
+_OF_ROUND = {"Mode (r, n)", "Doublet", "Order spectrum"}
+
+
+def glossary(steps: Sequence[Step]) -> Section:
     """Terms in the order in which a reader meets them."""
-    return Section("Words used", (Definitions(tuple((text(strong(t)), text(d)) for t, d in _TERMS)),))
+    left_out = (_OF_STATORS if coupon_of(steps) else set()) | (_OF_ROUND if are_blocks(steps) else set())
+    shown = tuple((text(strong(t)), text(d)) for t, d in _TERMS if t not in left_out)
+    return Section("Words used", (Definitions(shown),))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from statorhom.report.context import Step
+from statorhom.report.context import Step, coupon_of
 from statorhom.report.document import (
     Block,
     Column,
@@ -28,7 +28,10 @@ _UNITS = {"mm": "mm", "deg": "°", "kg": "kg", "m3": "m³", "m": "m", "hz": "Hz"
 def masses(results: Results, steps: Sequence[Step]) -> Section:
     """Table of weights and densities, the warnings about them, and the machine's dimensions."""
     lead = text(
-        "After every step the stator was weighed. What a step added, divided by the volume it fills in the "
+        "The weight, divided by the volume in the model, is the mean density; “±” is one standard deviation, "
+        "which comes from the weighing."
+        if coupon_of(steps) is not None
+        else "After every step the stator was weighed. What a step added, divided by the volume it fills in the "
         "model, is the mean density of that region; “±” is one standard deviation, which comes from both "
         "weighings."
     )

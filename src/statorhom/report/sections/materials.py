@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from statorhom.errors import MaterialError
 from statorhom.materials.typical import prior_range
-from statorhom.report.context import Step
+from statorhom.report.context import Step, coupon_of
 from statorhom.report.document import (
     Block,
     Column,
@@ -24,6 +24,8 @@ from statorhom.report.document import (
 )
 from statorhom.report.figures.interval_bar import interval_bar
 from statorhom.report.wording import (
+    AXES_OF_BLOCKS,
+    AXES_OF_ROUND,
     constant_interval,
     constant_meaning,
     constant_symbol,
@@ -32,8 +34,9 @@ from statorhom.report.wording import (
     symmetry_words,
 )
 from statorhom.results import Constant, FitSummary, RegionResult, StageResult
+from statorhom.study.regions import COUPON
 
-_VOIGT = ("rr", "θθ", "zz", "θz", "rz", "rθ")
+_VOIGT = ((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))
 _STATUS: dict[str, Span] = {
     "identified": Span("determined by the data", "good"),
     "prior_dominated": Span("not determined", "muted"),
@@ -44,7 +47,8 @@ _STATUS: dict[str, Span] = {
 def materials(steps: Sequence[Step]) -> Section:
     """Table of constants per step and region, Hooke's matrix on demand."""
     lead = text(
-        "Every region of the stator is treated as one homogeneous material with the constants below; with "
+        "Every region of the stator" if (coupon := coupon_of(steps)) is None else f"The {coupon}",
+        " is treated as one homogeneous material with the constants below; with "
         "90 % probability the true constant lies in the interval. A constant is ",
         Span("determined by the data", "good"),
         " where the measured modes narrowed it down to a few per cent. Where it is “not determined”, the "
@@ -85,7 +89,8 @@ def _step(step: Step) -> list[Block]:
 
 
 def _region(stage: StageResult, name: str, region: RegionResult) -> list[Block]:
-    symmetry = f", {symmetry_words(region.symmetry)}" if region.symmetry else ""
+    axes = AXES_OF_BLOCKS if stage.kind == COUPON and name != "tube" else AXES_OF_ROUND
+    symmetry = f", {symmetry_words(region.symmetry, axes)}" if region.symmetry else ""
     head = Paragraph(text(strong(name), symmetry), "subheading")
     columns = (
         Column(text("Constant")),
@@ -97,7 +102,7 @@ def _region(stage: StageResult, name: str, region: RegionResult) -> list[Block]:
     rows = tuple(_row(stage, name, region, key, c) for key, c in region.engineering.items())
     blocks: list[Block] = [head, Table(columns, rows)]
     if region.hooke_pa is not None:
-        blocks.append(_hooke(name, region.hooke_pa))
+        blocks.append(_hooke(name, region.hooke_pa, axes))
     return blocks
 
 
@@ -125,11 +130,12 @@ def _typical(region: str, kind: str, symmetry: str | None, constant: str) -> tup
     return prior.low90, prior.high90
 
 
-def _hooke(name: str, matrix: tuple[tuple[float, ...], ...]) -> Fold:
-    columns = (Column(text("GPa")), *(Column(text(f"ε {index}"), "right") for index in _VOIGT))
+def _hooke(name: str, matrix: tuple[tuple[float, ...], ...], axes: tuple[str, str, str]) -> Fold:
+    indices = tuple(axes[i] + axes[j] for i, j in _VOIGT)
+    columns = (Column(text("GPa")), *(Column(text(f"ε {index}"), "right") for index in indices))
     rows = tuple(
         Row((text(f"σ {index}"), *(_entry(value) for value in row)))
-        for index, row in zip(_VOIGT, matrix, strict=False)
+        for index, row in zip(indices, matrix, strict=False)
     )
     note = Paragraph(text("Stress is this matrix times strain; shear strains are engineering ones."), "note")
     return Fold(text(f"Hooke’s matrix of the {name}"), (note, Table(columns, rows)))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from statorhom.report.context import Step
+from statorhom.mesh.mirror_mesh import MirrorMesh
+from statorhom.report.context import Step, are_blocks, coupon_of
 from statorhom.report.document import (
     Block,
     Column,
@@ -17,6 +18,7 @@ from statorhom.report.document import (
     strong,
     text,
 )
+from statorhom.report.figures.block_picture import DrawnBlock
 from statorhom.report.figures.convergence_plot import WIDTH_MM as PLOT_WIDTH_MM
 from statorhom.report.figures.convergence_plot import convergence_plot
 from statorhom.report.figures.mesh_picture import WIDTH_MM, mesh_picture
@@ -29,8 +31,7 @@ _LEAST_SHOWN_PERCENT = 1e-3
 def mesh(steps: Sequence[Step]) -> Section:
     """Pictures of the meshes, and the convergence of the modes."""
     lead = text(
-        "The model is made of bricks with 20 nodes. One half of a slot pitch is meshed and copied around, so "
-        "that the model has exactly the symmetry of the machine. A finite mesh is always a little too stiff: "
+        f"The model is made of bricks with 20 nodes. {_part(steps)} A finite mesh is always a little too stiff: "
         "where tables follow, modes were computed on several meshes and extrapolated to an infinitely fine "
         "one. What remains uncertain counts as an uncertainty of the model and is not fitted into the "
         "materials.",
@@ -40,6 +41,15 @@ def mesh(steps: Sequence[Step]) -> Section:
     for step in steps:
         blocks += _step(step, drawn)
     return Section("Mesh and its error", tuple(blocks))
+
+
+def _part(steps: Sequence[Step]) -> str:
+    """What is meshed."""
+    if are_blocks(steps):
+        return "An eighth of the body is meshed; the modes are sorted by their symmetry about its three middle planes."
+    what = "of a slot pitch" if coupon_of(steps) is None else "of a sector"
+    of = "machine" if coupon_of(steps) is None else "tube"
+    return f"One half {what} is meshed and copied around, so that the model has exactly the symmetry of the {of}."
 
 
 def _step(step: Step, drawn: list[tuple[int, tuple[str, ...]]]) -> list[Block]:
@@ -60,21 +70,24 @@ def _step(step: Step, drawn: list[tuple[int, tuple[str, ...]]]) -> list[Block]:
 
 def _picture(step: Step) -> Picture:
     assert step.shapes is not None
-    mesh = step.shapes.file.mesh
-    bricks = 2 * mesh.slots * len(mesh.elements)
-    caption = text(
-        f"One slot pitch (left) and the whole stator (right): {mesh.slots} slots, {bricks} bricks, "
-        f"{mesh.full_dof} degrees of freedom. "
-        "This is the mesh of the pictures; the table lists those of the fit."
-    )
-    content = mesh_picture(mesh, step.shapes.stator.surface)
+    mesh, body = step.shapes.file.mesh, step.shapes.body
+    size = f"{mesh.copies * len(mesh.elements)} bricks, {mesh.full_dof} degrees of freedom."
+    note = "This is the mesh of the pictures; the table lists those of the fit."
+    if isinstance(mesh, MirrorMesh) or isinstance(body, DrawnBlock):
+        assert isinstance(body, DrawnBlock)
+        return Picture(body.mesh_picture(), "png", WIDTH_MM, "mesh", text(f"The whole body: {size} {note}"))
+    part = "sector" if step.coupon else "slot pitch"
+    whole = f"tube (right): {size}" if step.coupon else f"stator (right): {mesh.slots} slots, {size}"
+    caption = text(f"One {part} (left) and the whole {whole} {note}")
+    content = mesh_picture(mesh, body.surface)
     return Picture(content, "png", WIDTH_MM, "mesh of one slot pitch and of the whole stator", caption)
 
 
 def _convergence(stage: StageResult) -> list[Block]:
     blocks: list[Block] = [_table(stage.convergence)]
     caption = text(
-        "How far each mesh lies above the extrapolated frequency, a colour per order r; dashed where n is odd."
+        "How far each mesh lies above the extrapolated frequency, a colour per "
+        + ("kind of motion." if any(c.kind for c in stage.convergence) else "order r; dashed where n is odd.")
     )
     alt = "convergence of the frequencies with the mesh"
     drawable = [c for c in stage.convergence if len(c.dof) > 1]
@@ -137,7 +150,7 @@ def _table(series: Sequence[Convergence]) -> Table:
     rows = tuple(
         Row(
             (
-                text(strong(mode_name(c.order, c.axial))),
+                text(strong(mode_name(c.order, c.axial, c.kind))),
                 *(text(frequency(dict(zip(c.dof, c.frequency_hz, strict=True)).get(n))) for n in dof),
                 text(strong(frequency(c.extrapolated_hz))),
                 text(f"± {c.sd_percent:.2f} %"),
@@ -146,7 +159,7 @@ def _table(series: Sequence[Convergence]) -> Table:
         for c in sorted(series, key=_by_name)
     )
     caption = (
-        "Frequencies in Hz; DOF: degrees of freedom of the whole stator; uncertainty: one standard deviation."
+        "Frequencies in Hz; DOF: degrees of freedom of the whole model; uncertainty: one standard deviation."
     )
     if any(len(c.dof) < len(dof) for c in series):
         caption += " Orders that were only predicted were not computed on every mesh."

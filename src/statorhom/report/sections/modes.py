@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from statorhom.report.context import Step, tests_of
+from statorhom.report.context import Step, are_blocks, tests_of
 from statorhom.report.document import (
     Block,
     Column,
@@ -32,9 +32,14 @@ _BAND_MARGIN = (
 
 def modes(steps: Sequence[Step]) -> Section:
     """A table and a picture per test."""
+    naming = (
+        "Modes are told by their motion and paired by their frequencies. "
+        if are_blocks(steps)
+        else "A mode is named (r, n): r waves around the circumference, n node planes along the axis. "
+    )
     lead = text(
-        "A mode is named (r, n): r waves around the circumference, n node planes along the axis. The error "
-        "is how far the simulated frequency lies above (+) or below (−) the measured one; “±” after it is "
+        naming,
+        "The error is how far the simulated frequency lies above (+) or below (−) the measured one; “±” after it is "
         "the 90 % uncertainty that measurement and model leave it, so that an error beyond it (bold) needs "
         "an explanation. “Mesh” is the correction that was added to the simulated frequency for the finite "
         "mesh. Predicted modes were not used in the fit: they test it.",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from statorhom.report.context import DrawnShapes, Step
+from statorhom.report.context import DrawnShapes, Step, are_blocks
 from statorhom.report.document import Block, Gallery, Paragraph, Picture, Section, muted, strong, text
 from statorhom.report.figures.spectrum_map import WIDTH_MM, shown_orders, spectrum_map
 from statorhom.report.wording import frequency, mode_name
@@ -13,8 +13,10 @@ from statorhom.results import ModeResult
 _MOST_PICTURES = 18
 
 
-def spectra(steps: Sequence[Step]) -> Section:
-    """A gallery of spectra per step."""
+def spectra(steps: Sequence[Step]) -> Section | None:
+    """A gallery of spectra per step, or nothing where modes have no orders."""
+    if are_blocks(steps):
+        return None
     lead = text(
         "The radial motion of the outer surface is split into waves around the circumference. The bars "
         "give each order’s share of the motion; below them, a row for every plane along the axis shows how "

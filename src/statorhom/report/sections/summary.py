@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from statorhom.report.context import Step
+from statorhom.report.context import Step, coupon_of
 from statorhom.report.document import (
     Block,
     Fold,
@@ -51,8 +51,7 @@ def _opening(steps: Sequence[Step]) -> Text:
     measured = [m for s in steps for m in s.result.modes if m.measured_hz is not None]
     fitted = sum(m.role == "fitted" for m in measured)
     return text(
-        f"This report describes how the materials of a stator were found from its weight and its measured "
-        f"modes, step by step of its fabrication. {plural(len(steps), 'step').capitalize()} were weighed. "
+        _subject(steps),
         f"{plural(len(measured), 'measured mode').capitalize()} were compared with simulated ones; {number(fitted)} "
         f"of them decided about the constants, the others test them. Of "
         f"{plural(len(constants), 'elastic constant')}, ",
@@ -60,6 +59,19 @@ def _opening(steps: Sequence[Step]) -> Text:
         "; the others were prescribed, or the measurements leave them open."
         if known < len(constants)
         else ".",
+    )
+
+
+def _subject(steps: Sequence[Step]) -> str:
+    coupon = coupon_of(steps)
+    if coupon is not None:
+        return (
+            f"This report describes how the material of a {coupon} was found from its weight and its "
+            "measured modes. "
+        )
+    return (
+        "This report describes how the materials of a stator were found from its weight and its measured "
+        f"modes, step by step of its fabrication. {plural(len(steps), 'step').capitalize()} were weighed. "
     )
 
 

@@ -1,0 +1,158 @@
+"""A contact that is weaker over an arc: what that does to the modes of the even one.
+
+It couples the harmonics of one axial parity. An arc around θ = 0 is its own mirror image, which keeps cosine and sine
+shapes apart. All faces of a half pitch weaken alike, by the share of it that the arc covers.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.linalg import block_diag, eigh
+
+from statorhom.diagnose.ring_basis import RingBasis, RingModes
+from statorhom.errors import SolverError
+from statorhom.model.affine import Materials
+from statorhom.model.broken.cells import Sectors
+from statorhom.model.broken.grams import GramCache, project
+from statorhom.model.broken.pieces import Pieces
+from statorhom.model.broken.waves import Waves
+from statorhom.model.stator_mode import StatorMode
+from statorhom.physics.action import Joint
+
+LEAST = 0.2  # share of a mode of the even contact that a mode of the weakened one must keep to bear its name
+
+
+@dataclass(frozen=True, eq=False)
+class Family:
+    """Cosine or sine shapes of a weakened contact.
+
+    Parameters
+    ----------
+    starts : problem → where its coordinates begin.
+    values : (m,) λ.
+    coordinates : (n, m) in the modes of the even contact.
+    """
+
+    starts: dict[int, int]
+    values: np.ndarray
+    coordinates: np.ndarray
+
+    def of(self, mode: StatorMode) -> int | None:
+        """Number of the mode that is most of a mode of the even contact."""
+        weight = self.coordinates[self.starts[mode.problem] + mode.column] ** 2
+        best = int(np.argmax(weight))
+        return best if weight[best] >= LEAST and self.values[best] > 0 else None
+
+
+@dataclass(frozen=True, eq=False)
+class Weakened:
+    """All modes of one axial parity."""
+
+    even: RingModes
+    families: tuple[Family, ...]
+
+    def response(self, mode: StatorMode, materials: Materials) -> tuple[float, complex, np.ndarray] | None:
+        """ln f of the mean λ, relative split, and d ln f by the materials; None where the mode is lost."""
+        members = [(family, family.of(mode)) for family in self.families[: mode.multiplicity]]
+        parts = [(family.values[i], family, i) for family, i in members if i is not None]
+        if len(parts) < len(members):
+            return None
+        values = [float(value) for value, _, _ in parts]
+        mean = float(np.mean(values))
+        split = complex((values[0] - values[1]) / mean) if len(values) == 2 else 0j
+        slopes = [value / mean * self._slope(family, i, materials) for value, family, i in parts]
+        return 0.5 * float(np.log(mean)) - float(np.log(2 * np.pi)), split, np.mean(slopes, axis=0)
+
+    def _slope(self, family: Family, number: int, materials: Materials) -> np.ndarray:
+        total = np.zeros(10 * len(materials))
+        for problem, start in family.starts.items():
+            vectors = self.even.vectors[problem]
+            x = vectors @ family.coordinates[start : start + vectors.shape[1], number]
+            total += self.even.problems[problem].slope(x, float(family.values[number]), materials)
+        return total
+
+
+@dataclass(frozen=True, eq=False)
+class ArcGroup:
+    """Problems that an arc couples.
+
+    Parameters
+    ----------
+    numbers : of the problems.
+    cosine, sine : those of them with cosine and with sine shapes.
+    waves : their bases.
+    pieces : of the contact, normal and tangential.
+    """
+
+    numbers: tuple[int, ...]
+    cosine: tuple[int, ...]
+    sine: tuple[int, ...]
+    waves: Waves
+    pieces: tuple[Pieces, Pieces]
+    _grams: GramCache = field(default_factory=GramCache, repr=False)
+    _last: dict[str, tuple[RingModes, Joint, Weakened]] = field(default_factory=dict, repr=False)
+
+    def weakened(self, even: RingModes, joint: Joint) -> Weakened:
+        """Modes with a weaker arc around θ = 0; the last ones are kept.
+
+        Raises
+        ------
+        SolverError
+            If the eigenvalues cannot be found.
+        """
+        known = self._last.get("last")
+        if known is None or known[0] is not even or known[1] != joint:
+            known = (even, joint, self._solved(even, joint))
+            self._last["last"] = known
+        return known[2]
+
+    def _solved(self, even: RingModes, joint: Joint) -> Weakened:
+        assert joint.arc is not None
+        half = Sectors(np.array([[0.0, np.pi / self.waves.slots]]), self.waves.slots)
+        share = half.share_of_arc(-0.5 * joint.arc[1], 0.5 * joint.arc[1])
+        change = np.zeros((len(self.waves), len(self.waves)))
+        for stiffness, pieces in zip((joint.normal, joint.tangential), self.pieces, strict=True):
+            weights = np.repeat((joint.ratio - 1.0) * stiffness * share, len(pieces), axis=0)
+            change += project(self._grams, pieces, weights, self.waves, self.waves)
+        count = len(self.waves.cosine)
+        blocks = ((self.cosine, change[:count, :count]), (self.sine, change[count:, count:]))
+        return Weakened(even, tuple(_family(even, numbers, block) for numbers, block in blocks))
+
+
+def _family(even: RingModes, numbers: tuple[int, ...], change: np.ndarray) -> Family:
+    vectors = block_diag(*[even.vectors[n] for n in numbers])
+    K = vectors.T @ change @ vectors + np.diag(np.concatenate([even.values[n] for n in numbers]))
+    try:
+        values, x = eigh((K + K.T) / 2)
+    except np.linalg.LinAlgError:
+        raise SolverError("a weakened contact has no modes; check its stiffness") from None
+    starts, first = {}, 0
+    for n in numbers:
+        starts[n] = first
+        first += len(even.values[n])
+    return Family(starts, values, x)
+
+
+def arc_groups(ring: RingBasis, pieces: tuple[Pieces, Pieces]) -> tuple[ArcGroup, ...]:
+    """The problems of each axial parity."""
+    found = []
+    for axial in dict.fromkeys(p.space.axial for p in ring.problems):
+        numbers = [n for n, p in enumerate(ring.problems) if p.space.axial == axial]
+        own = [ring.problems[n] for n in numbers]
+        order, odd, even = (
+            np.concatenate([np.full(p.basis.shape[1], value(p.space)) for p in own])
+            for value in (lambda s: s.order, lambda s: s.parity == "odd", lambda s: s.parity == "even")
+        )
+        waves = Waves(
+            np.hstack([p.space.expand(p.basis) for p in own]),
+            order,
+            np.flatnonzero(~odd),
+            np.flatnonzero(~even),
+            ring.model.mesh.slots,
+        )
+        cosine = tuple(n for n in numbers if ring.problems[n].space.parity != "odd")
+        sine = tuple(n for n in numbers if ring.problems[n].space.parity != "even")
+        found.append(ArcGroup(tuple(numbers), cosine, sine, waves, pieces))
+    return tuple(found)

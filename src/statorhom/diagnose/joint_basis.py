@@ -1,0 +1,155 @@
+"""A step whose parts meet over a contact of finite stiffness: its modes at any materials and any contact.
+
+The mesh is split along the contact (`statorhom.model.broken.interface`). Small bases per harmonic hold the modes at
+contacts from a bond down to parts that hardly touch; materials and contact stiffness enter them linearly, so that an
+evaluation costs milliseconds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from statorhom.diagnose.joint_arc import ArcGroup, arc_groups
+from statorhom.diagnose.joint_fields import with_local_fields
+from statorhom.diagnose.ring_basis import RingBasis, RingModes, ring_basis
+from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.model.affine import Materials, assemble
+from statorhom.model.blas_threads import one_blas_thread
+from statorhom.model.broken.interface import contact, split
+from statorhom.model.broken.pieces import Pieces
+from statorhom.model.convergence import ModeKey, mode_keys
+from statorhom.model.stator_mode import StatorMode
+from statorhom.physics.action import Joint
+
+LADDER = (1e14, 1e12, 1e11, 1e10)  # N/m³: contacts whose modes span the bases
+KEPT = 64  # solutions
+
+
+@dataclass(frozen=True, eq=False)
+class JoinedMode:
+    """A named mode of a step with a joint.
+
+    Parameters
+    ----------
+    mode : with the contact the same all around.
+    log_f : ln of the frequency (Hz) of the doublet's mean λ.
+    split : complex relative split of λ.
+    slope : d ln f by the Hooke entries and the density of all regions, one after the other.
+    """
+
+    mode: StatorMode
+    log_f: float
+    split: complex
+    slope: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class JointBasis:
+    """The bases of a step with a joint.
+
+    Parameters
+    ----------
+    ring : on the split mesh, without the contact.
+    pieces : of the half pitch, normal and tangential contact per unit stiffness (m²).
+    springs : (2, k, k) per problem, the same in the bases.
+    """
+
+    ring: RingBasis
+    pieces: tuple[Pieces, Pieces]
+    springs: tuple[np.ndarray, ...]
+    _last: dict[tuple[bytes, Joint], Mapping[ModeKey, JoinedMode]] = field(default_factory=dict, repr=False)
+
+    @cached_property
+    def groups(self) -> tuple[ArcGroup, ...]:
+        """What an arc couples."""
+        return arc_groups(self.ring, self.pieces)
+
+    def solve(self, materials: Materials, joint: Joint) -> dict[ModeKey, JoinedMode]:
+        """Named modes of the band.
+
+        Raises
+        ------
+        SolverError
+            If a mass or stiffness is not definite.
+        """
+        centre = 0.0 if joint.arc is None else joint.arc[0]
+        # the place of an arc turns the splits alone: all places are solved as one
+        still = joint if joint.arc is None else replace(joint, arc=(0.0, joint.arc[1]))
+        mark = b"".join(
+            m.hooke.matrix.tobytes() + np.float64(m.density).tobytes() for m in materials.values()
+        )
+        if (mark, still) not in self._last:
+            while len(self._last) >= KEPT:
+                self._last.pop(next(iter(self._last)))
+            with one_blas_thread():
+                self._last[mark, still] = self._solved(materials, still)
+        return {
+            key: replace(one, split=complex(one.split * np.exp(2j * key[0] * centre)))
+            for key, one in self._last[mark, still].items()
+        }
+
+    def _solved(self, materials: Materials, joint: Joint) -> dict[ModeKey, JoinedMode]:
+        even = self._even(materials, joint)
+        keys = mode_keys(even.modes)
+        if joint.arc is None or joint.ratio == 1.0:
+            return {
+                key: JoinedMode(mode, float(np.log(mode.frequency_hz)), 0j, even.slope(mode, materials))
+                for key, mode in keys.items()
+            }
+        found: dict[ModeKey, JoinedMode] = {}
+        for group in self.groups:
+            for key, mode in keys.items():
+                if mode.problem not in group.numbers:
+                    continue
+                response = group.weakened(even, joint).response(mode, materials)
+                if response is not None:
+                    found[key] = JoinedMode(mode, *response)
+        return found
+
+    def _even(self, materials: Materials, joint: Joint) -> RingModes:
+        """Modes with the contact the same all around."""
+        matrices = []
+        for problem, springs in zip(self.ring.problems, self.springs, strict=True):
+            K, M = problem.matrices(materials)
+            matrices.append((K + joint.normal * springs[0] + joint.tangential * springs[1], M))
+        return self.ring.solve_matrices(matrices, materials)
+
+
+def joint_basis(
+    mesh: HalfPitchMesh,
+    regions: tuple[str, ...],
+    materials: Materials,
+    highest_hz: float,
+    orders: Sequence[int],
+    *,
+    with_arcs: bool,
+) -> JointBasis:
+    """Bases of a joint.
+
+    Parameters
+    ----------
+    mesh : of the half pitch, bonded.
+    regions : that get nodes of their own.
+    materials : whose modes span the bases.
+    highest_hz : upper end of the band.
+    orders : harmonics that are named.
+    with_arcs : whether the contact may differ around the stator.
+    """
+    apart = split(mesh, regions)
+    pieces = (contact(apart, regions, 1.0, 0.0).pieces, contact(apart, regions, 0.0, 1.0).pieces)
+    unit = [p.matrix(np.ones(len(p))) for p in pieces]
+    joints = [k * (unit[0] + unit[1]) for k in LADDER]
+    ring = ring_basis(assemble(apart), [materials], highest_hz, orders, joints)
+    if with_arcs:
+        ring = with_local_fields(ring, materials, unit[0] + unit[1])
+    springs = []
+    for problem in ring.problems:
+        images = problem.space.expand(problem.basis)
+        springs.append(
+            np.stack([problem.space.copies * (np.conj(images.T) @ (u @ images)).real for u in unit])
+        )
+    return JointBasis(ring, pieces, tuple(springs))

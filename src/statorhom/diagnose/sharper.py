@@ -1,0 +1,70 @@
+"""Explanations in models of their own: basis and mesh factors at their own materials, and in the deepest valley.
+
+The scan and the first refits stand in the declared model's basis, whose materials may be far from an explanation's: the
+difference looks like more physics left out. Constants of a winding that were found under a wrong belief may lie in a
+valley that the right belief does not have.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from statorhom.diagnose.explanations import ADEQUATE, COARSE, Explanation, explained, refitted
+from statorhom.diagnose.prediction import acted_materials
+from statorhom.diagnose.stage_model import mesh_error, with_reference
+
+MOST = 3  # explanations that get models of their own before a second effect is sought
+BEHIND = 150.0  # log evidence by which others are too far behind for that
+
+
+def sharpened(explanation: Explanation) -> Explanation:
+    """The same with basis and mesh factors of its own materials."""
+    r = explanation.refit
+    hypothesis = r.hypothesis
+    values, actions = hypothesis.study.constants.values(r.z[: hypothesis.constants]), hypothesis.actions(r.z)
+    stages = []
+    for stage in hypothesis.study.stages:
+        materials = acted_materials(hypothesis.study, stage, values, actions)
+        near = with_reference(stage, materials)
+        error = mesh_error(stage.setup, near.ring, materials, stage.density)
+        stages.append(replace(near, error=error))
+    moved = replace(hypothesis, study=hypothesis.study.with_stages(tuple(stages)), held=None)
+    again = refitted(moved, r.z)
+    return explanation if again is None else replace(explanation, refit=again)
+
+
+def refined(
+    explanations: Sequence[Explanation], valleys: Sequence[np.ndarray], counts: dict[str, int]
+) -> list[Explanation]:
+    """The leading explanations in models of their own and from the constants of other valleys; the best first.
+
+    Parameters
+    ----------
+    explanations : the best first.
+    valleys : constants at other optima of the declared model.
+    counts : effect → number of its candidates.
+    """
+    top = explanations[0].log_evidence if explanations else 0.0
+    found = [
+        _deepest(e, valleys, counts) if i < MOST and e.log_evidence > top - BEHIND else e
+        for i, e in enumerate(explanations)
+    ]
+    return sorted(found, key=lambda e: -e.log_evidence)
+
+
+def _deepest(explanation: Explanation, valleys: Sequence[np.ndarray], counts: dict[str, int]) -> Explanation:
+    best = sharpened(explanation).refit
+    n = best.hypothesis.constants
+    starts = [best.z, *(np.r_[v, best.z[n:]] for v in valleys)]
+    for start in starts:
+        if explained(best, counts).adequacy > ADEQUATE:
+            break
+        # wide valleys first: partners may change on the way
+        rough = refitted(replace(best.hypothesis, held=None, discrepancy=COARSE), start)
+        again = None if rough is None else refitted(replace(best.hypothesis, held=None), rough.z)
+        if again is not None and again.objective < best.objective:
+            best = sharpened(explained(again, counts)).refit
+    return explained(best, counts)

@@ -1,0 +1,70 @@
+"""One pass for all constants gives the derivatives that moving them one by one gives."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from statorhom import Study
+from statorhom.command_line.template import write_template
+from statorhom.diagnose import derivatives
+from statorhom.diagnose.constants import study_constants
+from statorhom.diagnose.features import SCATTER_SD
+from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.diagnose.recorded import measured_tests
+from statorhom.diagnose.stage_model import stage_model
+from statorhom.diagnose.study_model import StudyModel
+from statorhom.geometry.stator import stator_geometry
+from statorhom.identify.stage_setup import stage_setup
+from statorhom.mesh import uniform
+
+DOUBLET = "frequency_hz,order,axial\n1428,2,0\n1434,2,0\n1766,2,1\n3770,3,0\n"
+CLAMPED = """
+[[stages.tests]]
+name = "stack-clamped"
+support = "clamped"
+modal_table = "stack-clamped.csv"
+
+[[supports]]
+name = "clamped"
+kind = "lines"
+angles_deg = [158.0, 202.0]
+declared = "rigid"
+"""
+
+
+@pytest.fixture(scope="module")
+def hypothesis(tmp_path_factory: pytest.TempPathFactory) -> Hypothesis:
+    folder: Path = tmp_path_factory.mktemp("study")
+    write_template(folder)
+    (folder / "stack-free.csv").write_text(DOUBLET)
+    (folder / "stack-clamped.csv").write_text("frequency_hz\n640\n1130\n1300\n")
+    with (folder / "study.toml").open("a") as study:
+        study.write(CLAMPED)
+    files = Study.load(folder / "study.toml").files
+    files, tests = measured_tests(files, folder)
+    geometry = stator_geometry(files.geometry, files.geometry_path)
+    setup = stage_setup(files, geometry, 0)
+    constants = study_constants([setup], [2, 3], SCATTER_SD)
+    study = StudyModel(files, geometry, constants, ())
+    values = constants.values(np.zeros(len(constants)))
+    materials = study.declared(setup, values, study.masses(values, {}))
+    stage = stage_model(setup, list(tests.values()), [materials], uniform(1))
+    return Hypothesis(study.with_stages((stage,)))
+
+
+def test_slopes_are_those_of_moved_constants(hypothesis: Hypothesis, monkeypatch: pytest.MonkeyPatch) -> None:
+    z = 0.1 * np.random.default_rng(3).standard_normal(len(hypothesis))
+    paired = hypothesis.paired(z)
+    found = derivatives.jacobian(paired, z)
+    monkeypatch.setattr(derivatives, "by_frequency", lambda *_: {})
+    expected = derivatives.jacobian(paired, z)
+    tests = {f.test for f, row in zip(paired.features(z), found, strict=True) if np.any(row)}
+    assert tests == {"", "stack-free", "stack-clamped"}
+    # residuals beyond the knee bend over a step
+    np.testing.assert_allclose(found, expected, rtol=0.02, atol=2e-3 * np.abs(expected).max())
+    names = paired.study.constants.names
+    for name in ("stack:lamination.E_p_pa", "stack:mass_kg", "stack:mesh", "scatter 2 re"):
+        assert np.any(found[:, names.index(name)]), name

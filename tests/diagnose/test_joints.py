@@ -1,0 +1,97 @@
+"""Contacts of finite stiffness in small bases against the full model on the split mesh."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+from small_stators import MATERIALS, stator_mesh
+
+from statorhom.diagnose.joint_basis import JointBasis, joint_basis
+from statorhom.materials.hooke import Hooke
+from statorhom.model.affine import Material, assemble
+from statorhom.model.broken.basis import symmetric_basis
+from statorhom.model.broken.cells import Sectors
+from statorhom.model.broken.change import PieceChange
+from statorhom.model.broken.interface import contact, split
+from statorhom.model.broken.solve import solve_broken
+from statorhom.model.convergence import mode_keys
+from statorhom.model.free_modes import FreeProblem, problem_at
+from statorhom.physics.action import Joint
+
+TOP, SLOTS = 5000.0, 8
+WOUND = ("winding", "overhang")
+BOND = 1e14
+
+
+@pytest.fixture(scope="module")
+def basis() -> JointBasis:
+    mesh = stator_mesh(SLOTS, ("stack", "wound"))
+    return joint_basis(mesh, WOUND, MATERIALS, TOP, range(4), with_arcs=True)
+
+
+def full(stiffness: float, materials=MATERIALS):
+    half = split(stator_mesh(SLOTS, ("stack", "wound")), WOUND)
+    problem: FreeProblem = problem_at(assemble(half), materials)
+    joint = contact(half, WOUND, stiffness, stiffness).matrix
+    return mode_keys(replace(problem, K=sp.csr_array(problem.K + joint)).solve(TOP, range(4)).modes)
+
+
+@pytest.mark.parametrize("stiffness", [3e13, 3e11])
+def test_even_contacts_between_those_of_the_basis(basis: JointBasis, stiffness: float) -> None:
+    found, exact = basis.solve(MATERIALS, Joint(WOUND, stiffness, stiffness)), full(stiffness)
+    for key in ((2, 0, 0), (2, 1, 0), (3, 0, 0)):
+        assert np.exp(found[key].log_f) == pytest.approx(exact[key].frequency_hz, rel=1e-3)
+
+
+def test_slopes_by_the_winding_are_those_of_the_full_model(basis: JointBasis) -> None:
+    step, stiffness = 0.02, 3e11
+    ends = []
+    for factor in (1 - step, 1 + step):
+        own = Material(Hooke(factor * MATERIALS["winding"].hooke.matrix), MATERIALS["winding"].density)
+        ends.append(full(stiffness, {**MATERIALS, "winding": own}))
+    found = basis.solve(MATERIALS, Joint(WOUND, stiffness, stiffness))
+    hooke = MATERIALS["winding"].hooke.matrix
+    entries = [
+        hooke[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2), (3, 3), (4, 4), (5, 5))
+    ]
+    for key in ((2, 0, 0), (3, 0, 0)):
+        slope = found[key].slope.reshape(-1, 10)[list(MATERIALS).index("winding"), :9] @ entries
+        exact = np.log(ends[1][key].frequency_hz / ends[0][key].frequency_hz) / (2 * step)
+        assert slope == pytest.approx(exact, rel=0.03)
+
+
+@pytest.mark.parametrize(("arc_deg", "ratio"), [(70.0, 0.1), (110.0, 0.01)])
+def test_a_weak_arc_shifts_and_splits_as_in_the_full_model(
+    basis: JointBasis, arc_deg: float, ratio: float
+) -> None:
+    """The approximation's error: within a fifth of the shift, and of a twentieth of it."""
+    place, width = 0.7, np.deg2rad(arc_deg)
+    found = basis.solve(MATERIALS, Joint(WOUND, BOND, BOND, (place, width), ratio))
+    even = basis.solve(MATERIALS, Joint(WOUND, BOND, BOND))
+    half = split(stator_mesh(SLOTS, ("stack", "wound")), WOUND)
+    joint = contact(half, WOUND, BOND, BOND)
+    full_basis = symmetric_basis(assemble(half), MATERIALS, 3000.0, margin=1.5, contact=joint.matrix)
+    share = Sectors(np.array([[0.0, np.pi / SLOTS]]), SLOTS).share_of_arc(-width / 2, width / 2)
+    weights = np.repeat((ratio - 1) * share, len(joint.pieces), axis=0)
+    exact = solve_broken(full_basis, [PieceChange(joint.pieces, None, weights)]).frequencies_hz
+    mean = np.exp(found[2, 0, 0].log_f)
+    bonded = np.exp(even[2, 0, 0].log_f)
+    near = exact[np.argsort(np.abs(exact - mean))[:2]]
+    assert bonded - mean == pytest.approx(bonded - near.mean(), rel=0.2)
+    # Ritz values are upper bounds
+    assert mean >= near.mean() - 0.5
+    split_hz = 0.5 * abs(found[2, 0, 0].split) * mean
+    assert split_hz == pytest.approx(np.ptp(near), abs=0.2 * (bonded - near.mean()))
+
+
+def test_the_place_of_an_arc_turns_the_splits_alone(basis: JointBasis) -> None:
+    arcs = [Joint(WOUND, BOND, BOND, (place, 1.2), 0.1) for place in (0.0, 0.9)]
+    first, turned = (basis.solve(MATERIALS, arc) for arc in arcs)
+    for key, one in first.items():
+        assert turned[key].log_f == one.log_f
+        assert turned[key].split == pytest.approx(one.split * np.exp(1.8j * key[0]))
+    # less stiffness at the arc: its antinode belongs to the lower mode
+    assert first[2, 0, 0].split.real < 0

@@ -1,0 +1,48 @@
+"""Signatures seen from an explanation: what it took up already counts no more."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.scan import Scan, _Constants, rescanned
+from statorhom.physics.candidate import Candidate
+
+LUMP, STRIP = Candidate("lump", "stack", ()), Candidate("strip", "stack", ())
+
+
+def refit(residuals: np.ndarray, jacobian: np.ndarray, weights: np.ndarray, test: str = "t") -> Refit:
+    """At its optimum, so that residuals and coordinates are what they are."""
+    rows = [SimpleNamespace(kind="frequency", test=test, key=(r, 0, 0)) for r in range(len(residuals))]
+    hypothesis = SimpleNamespace(
+        prior_weights=weights, missed=0.0, residuals=lambda z: residuals, features=lambda z: rows
+    )
+    misfit = float(residuals @ residuals)
+    return Refit(hypothesis, np.zeros(jacobian.shape[1]), jacobian, misfit, misfit)  # type: ignore[arg-type]
+
+
+def test_a_second_effect_gains_what_the_first_one_left() -> None:
+    lump, strip = np.array([1.0, 0.5, 0.0, 0.0]), np.array([0.0, 0.5, 1.0, 0.0])
+    free = np.zeros((4, 1))
+    base = refit(-8.0 * lump - 3.0 * strip, free, np.ones(1))
+    away = _Constants(base)
+    found = [s for c, g in ((LUMP, lump), (STRIP, strip)) if (s := away.signature(c, np.empty(0), g))]
+    before = Scan(tuple(sorted(found, key=lambda s: -s.gain)), 0.001)
+    assert before.signatures[0].candidate is LUMP
+    first = refit(-3.0 * strip, np.column_stack([free, lump]), np.array([1.0, 0.0]))
+    after = rescanned(before, base, first)
+    assert [s.candidate for s in after.signatures] == [STRIP]  # the lump's own is taken up whole
+    across = strip - lump * (lump @ strip) / (lump @ lump)
+    assert after.signatures[0].gain == pytest.approx((3.0 * across @ strip) ** 2 / (across @ across))
+
+
+def test_other_partners_leave_the_scan_as_it_was() -> None:
+    g = np.array([1.0, 0.0])
+    base = refit(-g, np.zeros((2, 1)), np.ones(1))
+    signature = _Constants(base).signature(LUMP, np.empty(0), g)
+    assert signature is not None
+    before = Scan((signature,), 0.5)
+    assert rescanned(before, base, refit(-g, np.zeros((2, 1)), np.ones(1), test="other")) is before
