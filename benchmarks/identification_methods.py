@@ -193,14 +193,15 @@ modal_table = "modes.csv"
 def counted() -> Iterator[Count]:
     """Count full eigenproblems until the first convergence study begins."""
     count = Count()
-    patched = [(module, "modes_below") for module in (basis_greedy, free_modes)]
-    before = [getattr(module, name) for module, name in patched]
+    patched = ((basis_greedy, "modes_below", lambda _found: 1), (free_modes, "eigenpairs_of", len))
+    before = [getattr(module, name) for module, name, _ in patched]
     study = MeshSeries.study
 
-    def counting(solve: Callable[..., Any]) -> Callable[..., Any]:
+    def counting(solve: Callable[..., Any], size: Callable[[Any], int]) -> Callable[..., Any]:
         def counted_solve(*args: Any, **kwargs: Any) -> Any:
-            count.solves += count.counting
-            return solve(*args, **kwargs)
+            found = solve(*args, **kwargs)
+            count.solves += size(found) if count.counting else 0
+            return found
 
         return counted_solve
 
@@ -209,12 +210,12 @@ def counted() -> Iterator[Count]:
         return study(self, *args, **kwargs)
 
     try:
-        for (module, name), solve in zip(patched, before, strict=True):
-            setattr(module, name, counting(solve))
+        for (module, name, size), solve in zip(patched, before, strict=True):
+            setattr(module, name, counting(solve, size))
         MeshSeries.study = stopping  # type: ignore[method-assign]
         yield count
     finally:
-        for (module, name), solve in zip(patched, before, strict=True):
+        for (module, name, _), solve in zip(patched, before, strict=True):
             setattr(module, name, solve)
         MeshSeries.study = study  # type: ignore[method-assign]
 

@@ -23,8 +23,8 @@ from statorhom.identify.stage_problem import StageProblem
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.identify.surface.cube import Cube
 from statorhom.identify.surface.experiments import Experiments, FullModel
+from statorhom.identify.surface.part_model import part_model
 from statorhom.identify.surface.search import SurfaceSearch, search_surface
-from statorhom.identify.surface.stator_model import stator_model
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
@@ -128,7 +128,7 @@ def run_stage(
     keys, acting = setup.keys.identify, shifts if effects.actions else None
     surface: SurfaceSearch | None = None
     if keys.method == "response_surface":
-        full = stator_model(model, typical, LOOK * top, sorted({order for order, _ in names}))
+        full = part_model(model, typical, LOOK * top, sorted({order for order, _ in names}))
         surface = _by_surface(setup, searched, full, error, settings.seed, workers, announce)
         starts = surface.starts(space)
         reduced = bases.around(surface.problem_over(space), starts)
