@@ -231,7 +231,6 @@ def run(thing: TestObject, method: str, folder: Path, extra: str = "") -> dict[s
             chain(files, geometry, folder / "out", settings).run() if hasattr(geometry, "step") else None
         )
         total = time.process_time() - began
-    assert results is not None
     stage = results.stages[0]
     mesh = MeshSeries(geometry.step((thing.kind,)), RING_DENSITY).coarsest.mesh
     orders = [2, 3] if thing.kind == "stack" else list(orders_of(mesh))
