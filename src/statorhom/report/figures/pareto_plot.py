@@ -29,9 +29,17 @@ def pareto_plot(objectives: Sequence[str], front: Sequence[Sequence[float]]) -> 
     grid = figure.subplots(rows, columns, squeeze=False).ravel()
     best = int(np.argmin(np.sum(values**2, axis=1)))
     for axes, (i, j) in zip(grid, pairs, strict=False):
-        axes.plot(values[:, i], values[:, j], "o", color=SIMULATED, markersize=2.5, markeredgewidth=0)
         axes.plot(
-            values[best, i], values[best, j], "o", markersize=7, markerfacecolor="none", color=PREDICTED
+            values[:, i], values[:, j], "o", color=SIMULATED, markersize=2.5, markeredgewidth=0, clip_on=False
+        )
+        axes.plot(
+            values[best, i],
+            values[best, j],
+            "o",
+            markersize=7,
+            markerfacecolor="none",
+            color=PREDICTED,
+            clip_on=False,
         )
         tidy(axes, grid="both")
         axes.set_xlim(left=0.0)
