@@ -7,9 +7,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from blind_baselines import simpler_answers
+from blind_baselines import held_out_ratios, simpler_answers
 from blind_cases import BlindCase
 from blind_work import Work
+from scipy.stats import beta, binom
 
 # effects that lie in one part of the machine or of the measurement chain
 CLASSES: Mapping[str, str] = {
@@ -72,12 +73,14 @@ def scored(work: Work, case: BlindCase) -> dict[str, Any] | None:
         "snr": truth["detectability"]["projected_snr"],
         "seconds": run["seconds"],
         "fault": run["message"],
+        "commit": run.get("commit", ""),
     }
     if said is None:
         return row | {"verdict": "failed"}
     row |= compared(truth, said)
     details = json.loads((work.run(case) / "diagnosis-details.json").read_text(encoding="utf-8"))
     row["effect"] = "+".join(e["effect"] for e in truth["effects"])
+    row["held_out"] = held_out_ratios(details, said)
     return row | {"answers": {"diagnose": row["named"], **simpler_answers(details)}}
 
 
@@ -155,43 +158,65 @@ def _first(values: Any) -> Any:
     return next((value for value in values if value is not None), None)
 
 
-def summary(rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:
-    """The benchmark's figures; NaN where nothing was measured."""
+def proportions(rows: Sequence[Mapping[str, Any]]) -> dict[str, tuple[int, int]]:
+    """The benchmark's shares: how many of how many. A case without an answer is a wrong one, and no false name."""
     single = [r for r in rows if r["group"] == "single" and r["snr"] >= DETECTABLE]
-    nothing = [r for r in rows if r["group"] == "nothing"]
-    outside = [r for r in rows if r["group"] == "outside"]
     named = [r for r in single if r.get("effect_right")]
     return {
-        "effect right, snr >= 4": _mean(single, "effect_right"),
-        "class right, snr >= 4": _mean(single, "class_right"),
-        "doubles: both right": _mean([r for r in rows if r["group"] == "double"], "effect_right"),
-        "ambiguous: right verdict": _mean([r for r in rows if r["group"] == "ambiguous"], "verdict_right"),
-        "named on nothing missing": _share(nothing),
-        "named outside the library": _share(outside),
-        "median angle error (deg)": _median(named, "angle_error_deg"),
-        "median magnitude error": _median(named, "magnitude_error"),
-        "90 % intervals cover": _mean(named, "covered"),
-        "median held-out error, after over before": _median(named, "held_out_ratio"),
-        "median seconds, tables": _median([r for r in rows if r["data"] == "table"], "seconds"),
-        "median seconds, FRFs": _median([r for r in rows if r["data"] == "FRF"], "seconds"),
+        "effect right, snr >= 4": _count(single, "effect_right"),
+        "class right, snr >= 4": _count(single, "class_right"),
+        "doubles: both right": _count([r for r in rows if r["group"] == "double"], "effect_right"),
+        "ambiguous: right verdict": _count([r for r in rows if r["group"] == "ambiguous"], "verdict_right"),
+        "named on nothing missing": _false_names(rows, "nothing"),
+        "named outside the library": _false_names(rows, "outside"),
+        "90 % intervals cover": _count([r for r in named if r.get("covered") is not None], "covered"),
+        "no answer": (sum(r.get("verdict") == "failed" for r in rows), len(rows)),
     }
+
+
+def medians(rows: Sequence[Mapping[str, Any]]) -> dict[str, list[float]]:
+    """The values behind the benchmark's medians: of rightly named single effects, and of all times."""
+    single = [r for r in rows if r["group"] == "single" and r["snr"] >= DETECTABLE]
+    named = [r for r in single if r.get("effect_right")]
+    return {
+        "median angle error (deg)": _values(named, "angle_error_deg"),
+        "median magnitude error": _values(named, "magnitude_error"),
+        "median held-out error, after over before": _values(named, "held_out_ratio"),
+        "median seconds, tables": _values([r for r in rows if r["data"] == "table"], "seconds"),
+        "median seconds, FRFs": _values([r for r in rows if r["data"] == "FRF"], "seconds"),
+    }
+
+
+def summary(rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:
+    """The benchmark's figures; NaN where nothing was measured."""
+    shares = {name: k / n if n else float("nan") for name, (k, n) in proportions(rows).items()}
+    return shares | {
+        name: float(np.median(values)) if values else float("nan") for name, values in medians(rows).items()
+    }
+
+
+def interval(right: int, count: int) -> tuple[float, float]:
+    """95 % interval of a share (Clopper and Pearson 1934)."""
+    low = beta.ppf(0.025, right, count - right + 1) if right else 0.0
+    high = beta.ppf(0.975, right + 1, count - right) if right < count else 1.0
+    return float(low), float(high)
+
+
+def median_interval(values: Sequence[float]) -> tuple[float, float]:
+    """95 % interval of a median, between two of the sorted values."""
+    first = int(binom.ppf(0.025, len(values), 0.5))
+    ordered = np.sort(np.asarray(values, dtype=float))
+    return float(ordered[max(first - 1, 0)]), float(ordered[min(len(values) - first, len(values) - 1)])
 
 
 def _values(rows: Sequence[Mapping[str, Any]], key: str) -> list[float]:
     return [float(r[key]) for r in rows if r.get(key) is not None]
 
 
-def _mean(rows: Sequence[Mapping[str, Any]], key: str) -> float:
-    """Mean of a yes or no; a case without an answer is a no, one without the quantity does not count."""
-    failed = [r for r in rows if r.get("verdict") == "failed"]
-    values = _values(rows, key) + [0.0] * (len(failed) if key.endswith("right") else 0)
-    return float(np.mean(values)) if values else float("nan")
+def _count(rows: Sequence[Mapping[str, Any]], key: str) -> tuple[int, int]:
+    return sum(bool(r.get(key)) for r in rows), len(rows)
 
 
-def _median(rows: Sequence[Mapping[str, Any]], key: str) -> float:
-    values = _values(rows, key)
-    return float(np.median(values)) if values else float("nan")
-
-
-def _share(rows: Sequence[Mapping[str, Any]]) -> float:
-    return float(np.mean([r.get("verdict") == "named" for r in rows])) if rows else float("nan")
+def _false_names(rows: Sequence[Mapping[str, Any]], group: str) -> tuple[int, int]:
+    own = [r for r in rows if r["group"] == group]
+    return sum(r.get("verdict") == "named" for r in own), len(own)

@@ -15,6 +15,7 @@ import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
+from functools import cache
 from itertools import repeat
 from pathlib import Path
 
@@ -92,9 +93,29 @@ def diagnose(work: Work, case: BlindCase) -> str | None:
     except subprocess.TimeoutExpired:
         code, message = -1, [f"no answer within {PATIENCE_S:g} s"]
     seconds = time.perf_counter() - begin
-    state = {"seconds": seconds, "exit_code": code, "message": message[0] if code and message else ""}
+    state = {
+        "seconds": seconds,
+        "exit_code": code,
+        "message": message[0] if code and message else "",
+        "commit": commit(),
+    }
     write_text(folder / "run.json", json.dumps(state) + "\n")
     return None if code == 0 else f"{case.name}: {state['message']}"
+
+
+@cache
+def commit() -> str:
+    """What the answers come from: the repository's commit, marked where files of the program differ from it."""
+    folder = Path(__file__).resolve().parent
+
+    def said(*arguments: str) -> str:
+        done = subprocess.run(
+            ["git", "-C", str(folder), *arguments], capture_output=True, text=True, check=False
+        )
+        return done.stdout.strip()
+
+    changed = said("status", "--porcelain", "--untracked-files=no", "--", ":/src")
+    return (said("rev-parse", "--short", "HEAD") or "unknown") + ("+" if changed else "")
 
 
 def each(

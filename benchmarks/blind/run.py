@@ -45,7 +45,7 @@ def main() -> None:
     if not options.score:
         each("diagnosed", diagnose, work, cases, options.jobs)
     rows = [row for case in cases if (row := scored(work, case)) is not None]
-    print(write_report(rows, options.figures))
+    print(write_report(rows, options.figures, len(cases)))
 
 
 if __name__ == "__main__":

@@ -6,11 +6,11 @@ from collections import Counter
 
 import numpy as np
 import pytest
-from blind_baselines import comparison, simpler_answers
+from blind_baselines import comparison, held_out_ratios, simpler_answers
 from blind_cases import blind_cases
 from blind_machines import machine, study
-from blind_report import markdown
-from blind_score import angle_error_deg, compared, magnitude_error, summary
+from blind_report import markdown, write_report
+from blind_score import angle_error_deg, compared, interval, magnitude_error, median_interval, summary
 
 from statorhom.conceal.library import NONE, library
 from statorhom.geometry.stator import stator_geometry
@@ -104,30 +104,58 @@ def test_figures_count_what_they_say() -> None:
     assert figures["effect right, snr >= 4"] == 0.5
     assert figures["named on nothing missing"] == 0.5
     assert np.isnan(figures["named outside the library"])
-    assert "| x (nothing, table) | ovality | 1 |" in markdown(rows)
+    assert "| false name | x (nothing, table) | ovality | 1 |" in markdown(rows, 5)
 
 
 def test_simpler_methods_answer_by_one_number() -> None:
     details = {
-        "scan": [{"effect": "ovality", "label": "ovality (stack)", "gain": 30.0}],
-        "evidence": [["attached_mass (stack, lamination)", -3.0]],
-        "p_value": 0.001,
-        "over_nothing": 4.0,
+        "nothing_adequacy": 1e-4,
+        "maps": [{"regions": {"lamination": [[0.2]], "winding": [[0.5], [0.3]]}, "error": 0.1}],
+        "simpler": {"by_criterion": [{"effect": "ovality", "label": "ovality (stack)", "gain": 30.0}]},
     }
     assert simpler_answers(details) == {
+        "refit of E alone": "",
         "refit of all constants": "",
-        "largest gain": "ovality",
-        "largest evidence": "attached_mass",
+        "error map alone": "end_winding_stiffness",
+        "BIC without projection": "ovality",
     }
-    assert set(simpler_answers(details | {"p_value": 0.5, "over_nothing": -1.0}).values()) == {""}
+    quiet = {"nothing_adequacy": 0.5, "simpler": {"by_criterion": [{"effect": "ovality", "gain": -1.0}]}}
+    assert set(simpler_answers(details | quiet).values()) == {""}
+
+
+def test_held_out_errors_are_measured_against_the_refit_of_all_constants() -> None:
+    simpler = {"modulus_alone_held_out_percent": 3.0, "all_constants_held_out_percent": 1.5}
+    found = held_out_ratios({"simpler": simpler}, answer())
+    assert found == {
+        "refit of E alone": 2.0,
+        "refit of all constants": 1.0,
+        "diagnose": pytest.approx(0.2),
+    }
+    assert "diagnose" not in held_out_ratios({"simpler": simpler}, answer("none"))
 
 
 def test_methods_are_compared_on_the_same_cases() -> None:
-    answers = {"diagnose": "x", "refit of all constants": "", "largest gain": "y", "largest evidence": "x"}
+    answers = {"diagnose": "x", "refit of E alone": "", "refit of all constants": ""}
+    answers |= {"error map alone": "y", "BIC without projection": "x"}
     rows = [
         {"group": "single", "snr": 9.0, "effect": "x", "answers": answers},
+        {"group": "single", "snr": 9.0, "verdict": "failed"},
         {"group": "nothing", "snr": 1.0, "effect": "", "answers": answers},
     ]
     found = comparison(rows, 4.0)
-    assert [found[m]["effect right"] for m in ("diagnose", "largest gain")] == [1.0, 0.0]
-    assert found["refit of all constants"]["named on nothing"] == 0.0
+    assert [found[m]["effect right"] for m in ("diagnose", "error map alone")] == [(1, 2), (0, 2)]
+    assert found["refit of all constants"]["named on nothing"] == (0, 1)
+
+
+def test_intervals_of_shares_and_medians() -> None:
+    assert interval(0, 10) == (0.0, pytest.approx(0.3085, abs=1e-4))
+    assert interval(9, 10) == pytest.approx((0.5550, 0.9975), abs=1e-4)
+    assert median_interval(range(1, 21)) == (6.0, 15.0)
+    assert median_interval([3.0]) == (3.0, 3.0)
+
+
+def test_the_report_says_how_many_cases_at_which_commit(tmp_path) -> None:
+    row = {"case": "c", "group": "nothing", "data": "FRF", "snr": 0.0, "seconds": 1.0, "truth": "none"}
+    rows = [row | {"verdict": "none", "verdict_right": True, "commit": "abc", "template": "stack"}]
+    assert write_report(rows, tmp_path, 12).startswith("1 of 12 cases, diagnosed at commit abc (1).")
+    assert (tmp_path / "blind.png").stat().st_size > 0

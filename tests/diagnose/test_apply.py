@@ -20,7 +20,9 @@ from statorhom.study.study import StudyFiles, load_study
 def found(files: StudyFiles, effect: str, stage: str, **values: float) -> DeclaredEffect:
     """An effect as a diagnosis names it."""
     candidate: Candidate = next(c for c in all_candidates(files) if (c.effect, c.stage) == (effect, stage))
-    return DeclaredEffect(candidate, values, library()[effect].action(candidate, values, files))
+    usual = {p.name: p.starts[0] for p in candidate.parameters if p.name not in values}
+    whole = usual | values
+    return DeclaredEffect(candidate, whole, library()[effect].action(candidate, whole, files))
 
 
 def test_a_lump_is_declared_where_it_was_found(tmp_path: Path) -> None:

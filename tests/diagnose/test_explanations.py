@@ -12,10 +12,14 @@ from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.refit import Refit
 
 
+def features(residuals: list[float]) -> list[SimpleNamespace]:
+    return [SimpleNamespace(kind="frequency", residual=r) for r in residuals]
+
+
 def explanation(constant: float, magnitude: float) -> Explanation:
     """Ten features that are met to 8 units of squared residual; a constant and an effect's magnitude."""
     hypothesis = SimpleNamespace(
-        constants=1, prior_weights=np.ones(2), missed=3.0, residuals=lambda z: np.full(10, np.sqrt(0.8))
+        constants=1, prior_weights=np.ones(2), missed=3.0, features=lambda _: features([np.sqrt(0.8)] * 10)
     )
     objective = 8.0 + 3.0 + constant**2 + magnitude**2
     refit = Refit(hypothesis, np.array([constant, magnitude]), np.zeros((10, 2)), 8.0, objective)  # type: ignore[arg-type]
@@ -26,14 +30,23 @@ def test_a_large_effect_is_no_misfit() -> None:
     assert explanation(0.0, 5.0).adequacy == pytest.approx(float(chi2.sf(8.0, 10)))
 
 
+def test_loss_factors_hide_no_misfit() -> None:
+    """Rows that scatter as they like neither count against an explanation nor for it."""
+    plain, lossy = with_residuals([1.5] * 6), with_residuals([1.5] * 6, losses=[0.1] * 8)
+    assert lossy.adequacy == pytest.approx(plain.adequacy)
+
+
 def test_an_implausible_constant_is_one() -> None:
     assert explanation(6.0, 0.0).adequacy == pytest.approx(float(chi2.sf(44.0, 10)))
 
 
-def with_residuals(residuals: list[float]) -> Explanation:
+def with_residuals(residuals: list[float], losses: list[float] | None = None) -> Explanation:
     """No constants at all."""
-    r = np.array(residuals)
-    hypothesis = SimpleNamespace(constants=0, prior_weights=np.zeros(0), missed=0.0, residuals=lambda z: r)
+    lossy = [SimpleNamespace(kind="loss", residual=r) for r in losses or []]
+    r = np.array([*residuals, *(f.residual for f in lossy)])
+    hypothesis = SimpleNamespace(
+        constants=0, prior_weights=np.zeros(0), missed=0.0, features=lambda _: features(residuals) + lossy
+    )
     misfit = float(r @ r)
     refit = Refit(hypothesis, np.zeros(0), np.zeros((len(r), 0)), misfit, misfit)  # type: ignore[arg-type]
     return Explanation((), refit, 0.0)

@@ -18,7 +18,7 @@ def refit(residuals: np.ndarray, jacobian: np.ndarray, weights: np.ndarray, test
     """At its optimum, so that residuals and coordinates are what they are."""
     rows = [SimpleNamespace(kind="frequency", test=test, key=(r, 0, 0)) for r in range(len(residuals))]
     hypothesis = SimpleNamespace(
-        prior_weights=weights, missed=0.0, residuals=lambda z: residuals, features=lambda z: rows
+        prior_weights=weights, missed=0.0, residuals=lambda _: residuals, features=lambda _: rows
     )
     misfit = float(residuals @ residuals)
     return Refit(hypothesis, np.zeros(jacobian.shape[1]), jacobian, misfit, misfit)  # type: ignore[arg-type]

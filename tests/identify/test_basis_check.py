@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import synthetic_stage as stage
 
-from statorhom.identify.basis_check import check_basis
+from statorhom.identify.basis_check import BasisCheck, check_basis, together
 from statorhom.model.free_modes import solve_free
 
 
@@ -28,3 +28,11 @@ def test_a_mode_that_lies_elsewhere_is_named():
     assert not check.holds
     assert set(check.broken) == {(2, 0)}
     assert check.deviation > 0.019
+
+
+def test_of_several_optima_the_worst_counts():
+    one, other = BasisCheck(1e-5, 1e-3, ()), BasisCheck(2e-3, 1e-4, ((3, 1), (2, 0)))
+    both = together([one, other])
+    assert (both.deviation, both.certified) == (2e-3, 1e-3)
+    assert both.broken == ((2, 0), (3, 1))
+    assert together([one]) == one

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from statorhom.model.element import REFERENCE_NODES, gauss_table, shape_functions
+from statorhom.model.element import REFERENCE_NODES, gauss_table, shape_functions, shape_values
 
 POINTS = np.random.default_rng(1).random((7, 3))
 
@@ -21,6 +21,11 @@ def test_the_functions_reproduce_every_quadratic_and_its_gradient():
     np.testing.assert_allclose(values @ quadratic(REFERENCE_NODES), quadratic(POINTS), rtol=1e-13)
     at_nodes = np.einsum("qai,a->qi", gradients, quadratic(REFERENCE_NODES))
     np.testing.assert_allclose(at_nodes, gradient, atol=1e-12)
+
+
+def test_the_closed_form_is_the_same_family():
+    np.testing.assert_allclose(shape_values(POINTS), shape_functions(POINTS)[0], atol=1e-14)
+    np.testing.assert_allclose(shape_values(REFERENCE_NODES), np.eye(20), atol=1e-15)
 
 
 def test_gradients_are_the_derivatives_of_the_values():

@@ -45,7 +45,11 @@ def study_with(folder: Path, table: str, stage: str = "framed") -> StudyFiles:
 def test_a_lump_stands_in_units_that_users_type(tmp_path: Path) -> None:
     (found,) = declared_effects(study_with(tmp_path, LUMP))
     assert found.candidate.effect == "attached_mass" and found.candidate.stage == "framed"
-    assert found.values == pytest.approx({"mass_kg": 0.05, "angle_rad": np.deg2rad(100.0), "z_m": 0.02})
+    # a detail that the table leaves open is as usual
+    usual = {"cog_height_mm": 8.0}
+    assert found.values == pytest.approx(
+        {"mass_kg": 0.05, "angle_rad": np.deg2rad(100.0), "z_m": 0.02} | usual
+    )
     assert found.action.touches("framed") and not found.action.touches("stack")
     assert found.action.changes is not None
 

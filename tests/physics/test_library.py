@@ -88,7 +88,7 @@ def files(tmp_path: Path) -> StudyFiles:
 
 
 def test_names_are_those_of_the_contract() -> None:
-    assert set(library()) <= CONTRACT
+    assert set(library()) == CONTRACT
 
 
 def test_every_confusion_is_with_an_effect_of_the_contract() -> None:
@@ -99,8 +99,8 @@ def test_every_confusion_is_with_an_effect_of_the_contract() -> None:
 
 def test_candidates_of_a_chain(files: StudyFiles) -> None:
     found = {c.effect for c in all_candidates(files)}
-    # sensors rove in recordings only
-    assert found == set(library()) - {"sensor_mass", "stack_pressure_gradient"}
+    # sensors rove in recordings only, friction takes several force levels
+    assert found == set(library()) - {"sensor_mass", "stack_pressure_gradient", "dry_friction"}
     labels = [c.label for c in all_candidates(files)]
     assert len(labels) == len(set(labels))
 
@@ -111,6 +111,18 @@ def test_priors_lie_inside_physical_limits(files: StudyFiles) -> None:
             assert p.lower <= p.low90 < p.high90 <= p.upper, candidate.label
             assert p.located or p.starts, candidate.label
             assert all(p.lower < s < p.upper for s in p.starts)
+
+
+def test_friction_takes_two_force_levels(files: StudyFiles) -> None:
+    text = files.path.read_text()
+    test = 'name = "free"\nsupport = "free"\nmodal_table = "modes.csv"\n'
+    assert test in text
+    for second, count in ((2.0, 0), (20.0, 2)):
+        again = test.replace('"free"\nsupport', '"again"\nsupport') + f"force_level_n = {second}\n"
+        files.path.write_text(text.replace(test, test + f"force_level_n = 2.0\n[[stages.tests]]\n{again}"))
+        found = library()["dry_friction"].candidates(load_study(files.path))
+        assert len(found) == count
+        assert len({c.label for c in found}) == count
 
 
 def test_every_start_acts(files: StudyFiles) -> None:

@@ -19,7 +19,8 @@ from statorhom.conceal.truth import Case
 from statorhom.conceal.truth_file import truth_text
 from statorhom.mesh import MeshDensity
 from statorhom.study.geometry_file import read_geometry
-from statorhom.study.study_file import read_study_file
+from statorhom.study.message import input_error
+from statorhom.study.study_file import StudyFile, read_study_file
 
 
 @dataclass(frozen=True)
@@ -80,6 +81,7 @@ def conceal_study(
         Where the study, its geometry, the effect or the folder do not allow it.
     """
     study = read_study_file(path)
+    _refuse_declared(path, study)
     folder = path.parent / f"{study.name}-concealed" if out is None else out
     check_empty(folder)
     geometry = read_geometry(path.parent / study.geometry)
@@ -105,6 +107,17 @@ def conceal_study(
     found = detectability(case, tests, density)
     text = truth_text(folder.name, case, tests, found, verdict or case.verdict)
     return write_folder(folder, case, tests, text), case
+
+
+def _refuse_declared(path: Path, study: StudyFile) -> None:
+    for stage in study.stages:
+        if stage.effects:
+            raise input_error(
+                path,
+                f"stages[{stage.name}].effects",
+                "a truth has no declared effects",
+                "delete them and use --effect",
+            )
 
 
 def _limited(case: Case, highest_order: int) -> Case:

@@ -46,6 +46,7 @@ from statorhom.diagnose.report_rows import (
 from statorhom.diagnose.resampling import stability
 from statorhom.diagnose.scan import Scan, rescanned, scan
 from statorhom.diagnose.sharper import refined, sharpened
+from statorhom.diagnose.simpler import by_criterion, simpler_fits
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.settings import Settings
@@ -58,6 +59,7 @@ from statorhom.results.diagnosis import (
     FitErrors,
     HeldOutErrors,
     ScanRow,
+    SimplerRow,
 )
 from statorhom.study.study import StudyFiles
 
@@ -260,9 +262,20 @@ def _details(files: StudyFiles, found: Found, choice: Choice, seconds: float) ->
         constants=constant_rows(found.base.refit, best.refit),
         evidence=tuple((x.candidates[0].label, x.log_evidence) for x in found.explanations),
         seconds=seconds,
+        simpler=_simpler(found),
         options=choice.options,
         machine=machine_row(files),
         maps=() if found.verdict == "none" else map_rows(found.base.refit),
         opposite=opposite_rows(best) if found.verdict == "named" else (),
         summaries=summaries(tuple(dict.fromkeys(n for x in found.explanations for n in x.effects))),
+    )
+
+
+def _simpler(found: Found) -> SimplerRow:
+    fits = simpler_fits(found.base.refit)
+    rows = by_criterion(found.scan, found.base.free)
+    return SimplerRow(
+        modulus_alone_held_out_percent=fits.modulus_alone,
+        all_constants_held_out_percent=fits.all_constants,
+        by_criterion=tuple(ScanRow(effect=e, label=label, gain=gain) for e, label, gain in rows),
     )

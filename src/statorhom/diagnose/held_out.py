@@ -144,6 +144,12 @@ def _moves_densities(base: Refit, explanation: Explanation) -> bool:
     return any(abs(a.measured - b.measured) > MOVES * a.sd for a, b in zip(old, new, strict=True))
 
 
+def groups_of(base: Refit) -> list[Group]:
+    """Modes that have a partner, tests mixed; densities left out."""
+    features = base.hypothesis.features(base.z)
+    return sorted({f.group for f in features if f.kind in WEIGHT and not f.lost} - {WEIGHED}, key=str)
+
+
 def _errors(full: Refit, fold: frozenset[Group]) -> dict[Group, tuple[float, float]]:
     """Errors of a fold in percent, and their noise, after a fit without it."""
     hypothesis: Hypothesis = replace(full.hypothesis, left_out=fold)
@@ -151,8 +157,13 @@ def _errors(full: Refit, fold: frozenset[Group]) -> dict[Group, tuple[float, flo
         trained = refit_held(hypothesis, full.z)
     except StatorhomError:
         return {}
+    return left_out_errors(trained.hypothesis, trained.z)
+
+
+def left_out_errors(hypothesis: Hypothesis, z: np.ndarray) -> dict[Group, tuple[float, float]]:
+    """Errors of what a hypothesis leaves out in percent, and their noise."""
     found: dict[Group, list[Feature]] = {}
-    for feature in trained.hypothesis.features(trained.z, left_out=True):
+    for feature in hypothesis.features(z, left_out=True):
         if feature.kind in WEIGHT and not feature.lost and feature.sd < 0.5 * _scale(feature):
             found.setdefault(feature.group, []).append(feature)
     return {group: (_error(features), _noise(features)) for group, features in found.items()}

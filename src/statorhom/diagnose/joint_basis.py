@@ -78,7 +78,7 @@ class JointBasis:
         """
         centre = 0.0 if joint.arc is None else joint.arc[0]
         # the place of an arc turns the splits alone: all places are solved as one
-        still = joint if joint.arc is None else replace(joint, arc=(0.0, joint.arc[1]))
+        still = replace(joint, arc=None if joint.arc is None else (0.0, joint.arc[1]), loss_factor=0.0)
         mark = b"".join(
             m.hooke.matrix.tobytes() + np.float64(m.density).tobytes() for m in materials.values()
         )

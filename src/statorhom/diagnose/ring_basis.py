@@ -17,7 +17,7 @@ from statorhom.model.harmonic import Harmonic, harmonic_spaces
 from statorhom.model.radial_profile import RadialProfile, node_planes, radial_profile
 from statorhom.model.stator_mode import StatorMode, name_modes
 
-DEPENDENT = 1e-6  # part of its mass by which a snapshot must differ from the others
+DEPENDENT = 1e-7  # part of the norm by which a snapshot must differ from the others
 REACH = 1.15  # snapshots reach this much higher than the band
 MOST = 10  # modes of one problem per snapshot
 FIRST_GUESS = 4
@@ -205,8 +205,14 @@ def ring_basis(
 def _solved(
     space: Harmonic, matrices: Sequence[tuple[sp.csr_array, sp.csr_array]], highest_hz: float
 ) -> tuple[np.ndarray, sp.csr_array]:
-    """Modes (m, j) of all snapshots, and the first one's mass."""
+    """Modes (m, j) of all snapshots, and the energy K / λ + M that they have in the mean, λ the band's end.
+
+    It is the energy that tells what a basis lacks: where a material hardly changes its volume, a small difference in
+    shape is a large one in stiffness.
+    """
     found: list[np.ndarray] = []
+    top = (2 * np.pi * highest_hz) ** 2
+    energy = sp.csr_array((space.size, space.size))
     masses: list[tuple[np.ndarray, sp.csr_array]] = []
     expected = FIRST_GUESS
     for K, M in matrices:
@@ -215,23 +221,23 @@ def _solved(
         if mass is None:
             mass = sp.csr_array(space.project(M))
             masses.append((M.data, mass))
-        _, vectors = modes_below(
-            sp.csr_array(space.project(K)), mass, highest_hz, expected, most=MOST, tolerance=LOOSE
-        )
+        stiffness = sp.csr_array(space.project(K))
+        _, vectors = modes_below(stiffness, mass, highest_hz, expected, most=MOST, tolerance=LOOSE)
         found.append(vectors)
+        energy = energy + (stiffness / top + mass) / len(matrices)
         expected = min(max(FIRST_GUESS, vectors.shape[1] + 1), MOST)
-    return np.hstack(found), masses[0][1]
+    return np.hstack(found), sp.csr_array(energy)
 
 
-def independent(basis: np.ndarray, added: np.ndarray, M: sp.csr_array) -> np.ndarray:
-    """M-orthonormal directions (m, k) of `added` that the basis lacks."""
+def independent(basis: np.ndarray, added: np.ndarray, norm: sp.csr_array) -> np.ndarray:
+    """Directions (m, k) of `added` that the basis lacks, orthonormal in the definite matrix `norm`."""
     if added.shape[1] == 0:
         return added
-    added = added / np.sqrt(np.sum(added * (M @ added), axis=0))
+    added = added / np.sqrt(np.sum(added * (norm @ added), axis=0))
     for _ in range(2 if basis.shape[1] else 0):  # the second time for rounding
-        heavy = M @ basis
+        heavy = norm @ basis
         added = added - basis @ np.linalg.solve(basis.T @ heavy, heavy.T @ added)
-    values, rotation = np.linalg.eigh(added.T @ (M @ added))
+    values, rotation = np.linalg.eigh(added.T @ (norm @ added))
     keep = values > DEPENDENT
     return np.asarray(added @ (rotation[:, keep] / np.sqrt(values[keep])))
 

@@ -56,7 +56,7 @@ def refined(
 
 
 def _deepest(explanation: Explanation, valleys: Sequence[np.ndarray], counts: dict[str, int]) -> Explanation:
-    best = sharpened(explanation).refit
+    best = near = sharpened(explanation).refit
     n = best.hypothesis.constants
     starts = [best.z, *(np.r_[v, best.z[n:]] for v in valleys)]
     for start in starts:
@@ -66,5 +66,6 @@ def _deepest(explanation: Explanation, valleys: Sequence[np.ndarray], counts: di
         rough = refitted(replace(best.hypothesis, held=None, discrepancy=COARSE), start)
         again = None if rough is None else refitted(replace(best.hypothesis, held=None), rough.z)
         if again is not None and again.objective < best.objective:
-            best = sharpened(explained(again, counts)).refit
-    return explained(best, counts)
+            best = again
+    # models cost more than refits: another one only where the valley is another
+    return explained(best if best is near else sharpened(explained(best, counts)).refit, counts)

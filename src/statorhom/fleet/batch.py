@@ -87,7 +87,9 @@ def fit_fleet(
         At the end, if the program itself is at fault with one of the machines.
     """
     folder = Path(out).absolute()
-    machines = load_fleet(studies, folder, replace(Settings(seed=seed), shared_bases=True))
+    machines = load_fleet(
+        studies, folder, replace(Settings(seed=seed), shared_bases=True), executor, announce
+    )
     check_folder(folder)
     done: dict[str, Results] = {}
     endings: dict[str, Ending] = {}

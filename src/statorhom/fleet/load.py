@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
+from contextlib import closing, suppress
+from dataclasses import dataclass
 from pathlib import Path
 
 from statorhom.errors import InputFileError
+from statorhom.fleet.executor import Executor
 from statorhom.fleet.machine import Machine
-from statorhom.identify.recorded_tests import with_recorded_tables
+from statorhom.identify.announce import Announce, silent
+from statorhom.identify.recorded_tests import has_recordings, with_recorded_tables
 from statorhom.identify.settings import Settings
 from statorhom.study.message import one_line, quoted
 from statorhom.study.study import StudyFiles, load_study
@@ -17,15 +21,21 @@ MACHINES, BASES = "machines", "bases"
 
 
 def load_fleet(
-    studies: Sequence[str | os.PathLike[str]], out: Path, settings: Settings
+    studies: Sequence[str | os.PathLike[str]],
+    out: Path,
+    settings: Settings,
+    executor: Executor,
+    announce: Announce = silent,
 ) -> tuple[Machine, ...]:
-    """Machines of one geometry.
+    """Machines of one geometry; modes of their recordings are extracted.
 
     Parameters
     ----------
     studies : the study files, one a machine.
     out : folder of the fleet's results.
     settings : of the run.
+    executor : who extracts.
+    announce : told how many machines have recordings, and how many are done.
 
     Raises
     ------
@@ -34,33 +44,64 @@ def load_fleet(
     """
     if not studies:
         raise InputFileError("no study is given; name one study file per machine")
+    loaded = [load_study(path) for path in studies]
+    _check_names(loaded)
+    tasks = [Recorded(files, _folder(out, files)) for files in loaded if has_recordings(files)]
+    _extract(tasks, executor, announce)
     machines = []
-    for path in studies:
-        files = load_study(path)
-        folder = out / MACHINES / files.study.name
+    for files in loaded:
+        folder = _folder(out, files)
+        # what the workers have extracted is kept there; what they could not is an error here too
         recorded = with_recorded_tables(files, folder)
         machine = Machine(recorded.files, folder, out / BASES, settings, recorded.shapes)
         machine.chain.check()
         machines.append(machine)
-    _check_names(machines)
     for machine in machines[1:]:
         _check_alike(machines[0].files, machine.files)
     return tuple(machines)
 
 
-def _check_names(machines: Sequence[Machine]) -> None:
+@dataclass(frozen=True)
+class Recorded:
+    """A study with recordings, as it travels to whoever extracts their modes into its folder."""
+
+    files: StudyFiles
+    folder: Path
+
+
+def extract_recordings(task: Recorded) -> None:
+    """Extract a machine's recordings into its folder; never raises, for who reads the folder says what is wrong."""
+    with suppress(Exception):
+        with_recorded_tables(task.files, task.folder)
+
+
+def _extract(tasks: Sequence[Recorded], executor: Executor, announce: Announce) -> None:
+    # a single one is as soon extracted here
+    if len(tasks) < 2:
+        return
+    progress = announce("machines with recordings", len(tasks))
+    with closing(executor.run(extract_recordings, tasks)) as answers:
+        for done, _ in enumerate(answers, start=1):
+            progress(done)
+
+
+def _folder(out: Path, files: StudyFiles) -> Path:
+    return out / MACHINES / files.study.name
+
+
+def _check_names(studies: Sequence[StudyFiles]) -> None:
     """Every machine needs its own folder and its own rows in the table; some file systems ignore case."""
     seen: dict[str, Path] = {}
-    for machine in machines:
-        path = machine.files.path
-        first = seen.setdefault(machine.name.casefold(), path)
+    for files in studies:
+        name, path = files.study.name, files.path
+        first = seen.setdefault(name.casefold(), path)
         if first is path:
             continue
         if os.path.samefile(first, path):
             raise InputFileError(one_line(f"{path}: is given twice; name every machine once"))
         raise InputFileError(
             one_line(
-                f"{path}: name: {first} is named {quoted(machine.name)} as well; give each machine its own name, "
+                f"{path}: name: {first} is named {quoted(name)} as well; give each machine its own name, "
                 "such as its serial number"
             )
         )

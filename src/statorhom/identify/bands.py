@@ -61,10 +61,11 @@ def named_spaces(mesh: PartMesh, names: Names) -> Sequence[Space]:
 
 
 def _visible_orders(model: AffineModel[PartMesh], materials: Materials, top_hz: float) -> list[int]:
+    solution = solve_free(model, materials, top_hz, most=ENOUGH)
+    visible = {solution.harmonics[m.problem].order for m in solution.modes if m.visibility > LEAST_VISIBLE}
     found = []
     for order in orders_of(model.mesh):
-        modes = solve_free(model, materials, top_hz, (order,), ENOUGH).modes
-        if any(mode.visibility > LEAST_VISIBLE for mode in modes):
+        if order in visible:
             found.append(order)
         elif order > 2:
             break  # beyond the ovalling order, visible modes rise with the order

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +16,7 @@ ROUNDING = 1e-6  # of a frequency: what two eigensolvers may differ by
 
 @dataclass(frozen=True)
 class BasisCheck:
-    """Frequencies of the reduced model over those of the full one, at one material.
+    """Frequencies of the reduced model over those of the full one, at one material or at several.
 
     Parameters
     ----------
@@ -48,3 +49,9 @@ def check_basis(reduced: ReducedModes, full: FreeModes) -> BasisCheck:
         if deviation > bound + ROUNDING:
             broken.append(key[:2])
     return BasisCheck(max(deviations), max(bounds), tuple(broken))
+
+
+def together(checks: Sequence[BasisCheck]) -> BasisCheck:
+    """The worst of several, for as many materials."""
+    broken = sorted({name for check in checks for name in check.broken})
+    return BasisCheck(max(c.deviation for c in checks), max(c.certified for c in checks), tuple(broken))

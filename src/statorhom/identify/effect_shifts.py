@@ -94,7 +94,7 @@ class EffectShifts:
         return materials
 
     def _broken(
-        self, model: AffineModel[PartMesh], materials: Materials, solution: FreeModes, highest_hz: float
+        self, model: AffineModel, materials: Materials, solution: FreeModes, highest_hz: float
     ) -> dict[ModeKey, Response]:
         changes = [c for a in self.actions if a.changes for c in a.changes(model.mesh, materials)]
         if not changes:

@@ -69,8 +69,7 @@ def with_recorded_tables(
     StatorhomError
         Where recordings cannot be read or hold no modes.
     """
-    stages = files.study.stages[: None if last is None else last + 1]
-    tests = [test for stage in stages for test in stage.tests if test.name not in files.tables]
+    tests = _without_tables(files, last)
     if not tests:
         return RecordedStudy(files)
     done = announce("modal extraction", len(tests))
@@ -80,6 +79,16 @@ def with_recorded_tables(
         _check_held_out(files, test, tables[test.name])
         done(number)
     return RecordedStudy(replace(files, tables=FrozenMap(tables)), shapes)
+
+
+def has_recordings(files: StudyFiles) -> bool:
+    """Whether modes must be extracted before anything is fitted."""
+    return bool(_without_tables(files, None))
+
+
+def _without_tables(files: StudyFiles, last: int | None) -> list[ModalTestKeys]:
+    stages = files.study.stages[: None if last is None else last + 1]
+    return [test for stage in stages for test in stage.tests if test.name not in files.tables]
 
 
 def _recorded(files: StudyFiles, test: ModalTestKeys, folder: Path) -> tuple[ModalTable, Shapes]:

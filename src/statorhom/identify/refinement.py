@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 from statorhom.geometry.block import BlockGeometry
@@ -70,9 +70,9 @@ class MeshSeries:
         self, materials: Materials, highest_hz: float, orders: Sequence[int], workers: Workers
     ) -> FreeModes:
         """Modes of the coarsest mesh with their shapes."""
-        problem = problem_at(self.coarsest, materials)
-        tasks = [(problem, highest_hz, (order,), None) for order in orders]
-        return merged(workers.map(_solve_whole, tasks))
+        task = (problem_at(self.coarsest, materials), highest_hz, tuple(orders), None)
+        [found] = workers.map(_solve_whole, [task])
+        return found
 
     def study(
         self, materials: Materials, bands: Mapping[int, Band], workers: Workers
@@ -85,17 +85,22 @@ class MeshSeries:
         bands : harmonic → how far up and on how many meshes.
         workers : processes; the largest problems begin first.
         """
-        tasks = [
-            (level, order)
-            for level in reversed(range(len(self.models)))
-            for order, band in bands.items()
-            if level < band.meshes
-        ]
         problems = [problem_at(model, materials) for model in self.models]
-        work = [
-            (problems[level], bands[order].highest_hz, (order,), bands[order].most) for level, order in tasks
-        ]
-        found = dict(zip(tasks, workers.map(_solve, work), strict=True))
+        # harmonics share their factorizations: those with the same band are solved together
+        levels, work = [], []
+        for level in reversed(range(len(self.models))):
+            groups: dict[tuple[float, int | None], list[int]] = {}
+            for order, band in bands.items():
+                if level < band.meshes:
+                    groups.setdefault((band.highest_hz, band.most), []).append(order)
+            for (highest_hz, most), orders in groups.items():
+                levels.append(level)
+                work.append((problems[level], highest_hz, tuple(orders), most))
+        found = {
+            (level, order): modes
+            for level, solved in zip(levels, workers.map(_solve, work), strict=True)
+            for order, modes in solved.items()
+        }
         converged: list[ModeConvergence] = []
         for order, band in bands.items():
             count = min(band.meshes, len(self.models))
@@ -112,22 +117,11 @@ def _solve_whole(task: SolveTask, tick: Tick) -> FreeModes:
     return solution
 
 
-def _solve(task: SolveTask, tick: Tick) -> FreeModes:
+def _solve(task: SolveTask, tick: Tick) -> dict[int, FreeModes]:
     solution = _solve_whole(task, tick)
     # shapes stay in the process: frequencies and names are all that extrapolation needs
-    return FreeModes(solution.modes, (), (), ())
-
-
-def merged(parts: Sequence[FreeModes]) -> FreeModes:
-    """Modes of several solutions in one list; their problems are counted through."""
-    modes, first = [], 0
-    for part in parts:
-        modes += [replace(mode, problem=mode.problem + first) for mode in part.modes]
-        first += len(part.harmonics)
-    modes.sort(key=lambda mode: mode.frequency_hz)
-    return FreeModes(
-        tuple(modes),
-        tuple(harmonic for part in parts for harmonic in part.harmonics),
-        tuple(shape for part in parts for shape in part.shapes),
-        tuple(profile for part in parts for profile in part.profiles),
-    )
+    order = [harmonic.order for harmonic in solution.harmonics]
+    return {
+        wanted: FreeModes(tuple(m for m in solution.modes if order[m.problem] == wanted), (), (), ())
+        for wanted in task[2]
+    }

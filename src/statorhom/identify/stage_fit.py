@@ -97,7 +97,7 @@ def fit_stage(
     problem : in the full space, without mesh factors.
     keys : method, evaluations and chains.
     refine : convergence study at given materials.
-    rebase : makes the reduced model anew where it is not certified at the optimum; None to keep it.
+    rebase : makes the reduced model anew where it is not certified at all optima; None to keep it.
     seed : of the search.
     workers : processes.
     progress : called with the evaluations spent.
@@ -175,7 +175,7 @@ def _sharpen(
     convergence: tuple[ModeConvergence, ...] = ()
     refined_at: np.ndarray | None = None
     for round_ in range(ROUNDS):
-        if rebase is not None and round_ < REBASED and not _certified(problem, optima[0].x):
+        if rebase is not None and round_ < REBASED and not _certified(problem, optima):
             problem = replace(problem, solver=rebase(problem, [o.x for o in optima]))
             optima, refined_at = _polish_all(problem, [o.x for o in optima]), None
         x = optima[0].x
@@ -194,8 +194,9 @@ def _sharpen(
     return problem, convergence, optima
 
 
-def _certified(problem: StageProblem, x: np.ndarray) -> bool:
-    return problem.solve(x).largest_certified_error <= TOLERANCE
+def _certified(problem: StageProblem, optima: Sequence[Optimum]) -> bool:
+    """Whether the reduced model is exact enough at every optimum, not only at the best one."""
+    return all(problem.solve(o.x).largest_certified_error <= TOLERANCE for o in optima)
 
 
 def _polish_all(problem: StageProblem, starts: Sequence[np.ndarray]) -> tuple[Optimum, ...]:

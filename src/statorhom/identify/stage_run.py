@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from statorhom.errors import IdentificationError
 from statorhom.identify.announce import Announce
 from statorhom.identify.bands import highest_hz, mode_names, named_spaces
-from statorhom.identify.basis_check import BasisCheck, check_basis
+from statorhom.identify.basis_check import BasisCheck, check_basis, together
 from statorhom.identify.effect_shifts import NO_EFFECTS, EffectShifts
 from statorhom.identify.fit_bases import FitBases
 from statorhom.identify.model_error import ModelError, model_error
@@ -53,7 +53,7 @@ class StageRun:
     solution : free modes of the fitting mesh at the optimum.
     error : mesh factors of the full model's modes.
     plain : the optimum that the fitting mesh alone would give, without mesh factors.
-    basis : the reduced model verified at the optimum.
+    basis : the reduced model verified on the full one at every optimum of the posterior.
     basis_error : largest certified relative frequency error of the reduced model where it was trained.
     effects : that the study declares.
     surface : the search, where response surfaces did it.
@@ -187,6 +187,14 @@ def _finished(
     same = {c.key: c.frequency_hz[0] for c in fit.convergence}
     shifts = fit.problem.error.effects
     plain = polish(replace(fit.problem, error=ModelError(effects=shifts)), best)
+    # what is reported beside the best optimum is held against the full model as well
+    rivals = [
+        check_basis(
+            fit.problem.solve(part.optimum.x),
+            series.solution(fit.problem.stage_materials(part.optimum.x), band, orders, workers),
+        )
+        for part in fit.posterior.components[1:]
+    ]
     return StageRun(
         setup=setup,
         fit=fit,
@@ -195,7 +203,7 @@ def _finished(
         solution=solution,
         error=replace(model_error(fit.convergence, same), effects=shifts),
         plain=plain,
-        basis=check_basis(fit.problem.solve(best), solution),
+        basis=together([check_basis(fit.problem.solve(best), solution), *rivals]),
         basis_error=fit.problem.solver.error,
         effects=effects,
     )

@@ -10,7 +10,7 @@ import scipy.sparse as sp
 
 from statorhom.errors import SupportError
 from statorhom.mesh.hex_mesh import HalfPitchMesh
-from statorhom.model.element import shape_functions
+from statorhom.model.element import shape_values
 from statorhom.model.harmonic import Harmonic
 
 # upright faces of an element: the fixed reference axis and value, and the two bottom corners along the free one
@@ -112,7 +112,7 @@ class _Faces:
         reference = np.column_stack(
             [np.where(axis == 0, value, along), np.where(axis == 1, value, along), up]
         )
-        values, _ = shape_functions(np.clip(reference, 0.0, 1.0))
+        values = shape_values(np.clip(reference, 0.0, 1.0))
         return self._assemble(self.mesh.elements[self.element[face]], values, angles)
 
     def _locate(self, angles: np.ndarray, z: np.ndarray) -> np.ndarray:

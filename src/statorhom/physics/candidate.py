@@ -40,5 +40,5 @@ class Candidate:
 
     @property
     def magnitudes(self) -> tuple[EffectParameter, ...]:
-        """Constants that are no places."""
-        return tuple(p for p in self.parameters if not p.located)
+        """Constants that are no places, and no details that only widen what is known of the others."""
+        return tuple(p for p in self.parameters if not p.located and p.usual is None)

@@ -1,7 +1,8 @@
 """Effects that a study declares itself (``[[stages.effects]]``): read with the library, and written for it.
 
 A table's own keys are the effect's parameters and choices by their names; a place stands in the units that users type:
-`angle_rad` as `angle_deg`, `z_m` as `z_mm`.
+`angle_rad` as `angle_deg`, `z_m` as `z_mm`. The first parameter and the place are needed; others have their usual value
+where they are left out.
 """
 
 from __future__ import annotations
@@ -71,8 +72,9 @@ def effect_table(candidate: Candidate, values: Mapping[str, float]) -> dict[str,
             table[key] = place
     table |= dict(candidate.choice)
     for p in candidate.parameters:
-        key, unit = _typed(p.name)
-        table[key] = values[p.name] / unit
+        if p.name in values or p.usual is None:
+            key, unit = _typed(p.name)
+            table[key] = values[p.name] / unit
     return table
 
 
@@ -107,7 +109,10 @@ def _declared(files: StudyFiles, stage: str, number: int, keys: EffectKeys) -> D
             files.path, f"{where}.effect", f"no effect {quoted(keys.effect)}", hint(keys.effect, library())
         )
     candidate = _candidate(files, stage, where, effect, keys)
-    values = {p.name: _value(files, where, keys, p) for p in candidate.parameters}
+    first = candidate.parameters[:1]
+    values = {
+        p.name: _value(files, where, keys, p, needed=p.located or p in first) for p in candidate.parameters
+    }
     action = effect.action(candidate, values, files)
     instead = says_itself(action)
     if instead is not None:
@@ -153,9 +158,14 @@ def _narrowed(
     return [c for c in possible if said(c) == given]
 
 
-def _value(files: StudyFiles, where: str, keys: EffectKeys, parameter: EffectParameter) -> float:
+def _value(
+    files: StudyFiles, where: str, keys: EffectKeys, parameter: EffectParameter, *, needed: bool
+) -> float:
+    """What a table gives a parameter; one that is not needed has its usual value."""
     key, unit = _typed(parameter.name)
-    given = keys.values.get(key)
+    given = keys.values.get(key, None if parameter.usual is None else parameter.usual / unit)
+    if given is None and parameter.starts and not needed:
+        return parameter.starts[0]
     if given is None:
         raise input_error(files.path, f"{where}.{key}", "is missing", "add this key")
     if isinstance(given, str):

@@ -1,6 +1,6 @@
 """Contacts that slip, by harmonic balance: equivalent stiffness and damping of one mode at a steady amplitude.
 
-Jenkins' element (Jenkins 1962, J. Appl. Mech. 29; Gaul and Nitsche 2001, Appl. Mech. Rev. 54) is a spring behind a
+Jenkins' element (Jenkins 1962, Br. J. Appl. Phys. 13; Gaul and Nitsche 2001, Appl. Mech. Rev. 54) is a spring behind a
 slider; Iwan's (1966, J. Appl. Mech. 33) many of them, which here slip little: dissipation ∝ X^(χ+3) (Segalman 2005,
 J. Appl. Mech. 72).
 """

@@ -23,6 +23,7 @@ class EffectParameter:
         the limits, an angle with the period `upper - lower`.
     starts : values from which a refit sets out; the first one is where signatures are taken.
     absent : value without the effect, None where only a limit of the scale is.
+    usual : of a detail that is carried as uncertainty and is no magnitude: what a study that leaves it open means.
     """
 
     name: str
@@ -33,6 +34,7 @@ class EffectParameter:
     scale: Literal["log", "linear", "angle", "place"] = "linear"
     starts: tuple[float, ...] = ()
     absent: float | None = 0.0
+    usual: float | None = None
 
     @property
     def located(self) -> bool:

@@ -26,7 +26,7 @@ PDF_NAME = "report.pdf"
 def write_report(folder: Path) -> tuple[Path, Path]:
     """Make the report of a results folder from its results.json, its diagnosis.json and its shape files.
 
-    Either may be missing; with both, the identification comes first. Both files are made before either is written;
+    Either may be missing; with both, the two short answers come first. Both files are made before either is written;
     the same folder gives the same bytes.
 
     Returns
@@ -72,13 +72,11 @@ def report_document(folder: Path) -> Document:
                 f"{quoted(diagnosis.study)}; move one of them to a folder of its own"
             )
         )
+    summary, *rest = identified.sections
+    verdict, *more = diagnosis_sections(diagnosis, details)
     return replace(
         identified,
         title="Materials of a stator, and what its model left out",
         facts=(*identified.facts, *diagnosis_facts(diagnosis, details)),
-        sections=(
-            *identified.sections[:-1],
-            *diagnosis_sections(diagnosis, details),
-            identified.sections[-1],
-        ),
+        sections=(summary, verdict, *rest[:-1], *more, rest[-1]),
     )

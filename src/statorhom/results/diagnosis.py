@@ -198,6 +198,14 @@ class ConstantRow(_Part):
     after_sd: float
 
 
+class SimplerRow(_Part):
+    """What simpler methods make of the same data (`statorhom.diagnose.simpler`)."""
+
+    modulus_alone_held_out_percent: float | None
+    all_constants_held_out_percent: float | None
+    by_criterion: tuple[ScanRow, ...] = ()
+
+
 class Details(_Part):
     """The numbers behind a diagnosis."""
 
@@ -223,6 +231,7 @@ class Details(_Part):
     options: tuple[OptionRow, ...] = ()
     refitted: tuple[RefittedRow, ...] = ()
     refit_note: str | None = None
+    simpler: SimplerRow | None = None
 
 
 def write_diagnosis(diagnosis: Diagnosis, details: Details, folder: Path) -> Path:

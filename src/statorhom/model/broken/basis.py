@@ -100,6 +100,9 @@ class SymmetricBasis:
     shift: float
     softest: tuple[tuple[Pieces, np.ndarray], ...] = ()
     grams: GramCache = field(default_factory=GramCache, repr=False, compare=False)
+    kept_motions: OrderedDict[tuple[int, int], Any] = field(
+        default_factory=OrderedDict, init=False, repr=False, compare=False
+    )
     kept_statics: OrderedDict[tuple[int, ...], Any] = field(
         default_factory=OrderedDict, init=False, repr=False, compare=False
     )

@@ -22,7 +22,7 @@ from statorhom.model.broken.waves import Waves
 _MIRROR = np.array([1.0, -1.0, 1.0])
 DEPENDENT = 1e-24  # squared part of the largest stiffness or mass below which a motion carries neither
 
-KEPT = 4  # sets of places whose responses are kept
+KEPT = 8  # places, and sets of them, whose responses are kept
 OF_LOADS = ("rows", "products", "probed", "flexibility", "inertia")
 
 Loads = Mapping[bool, np.ndarray]
@@ -157,7 +157,23 @@ def _carrying(stiffness: np.ndarray, mass: np.ndarray) -> np.ndarray | None:
 
 
 def _motion(basis: SymmetricBasis, a: Attachment) -> np.ndarray:
-    """Displacements (motions, s) of an attachment's motions by the loaded coordinates of all problems, complex."""
+    """Displacements (motions, s) of an attachment's motions by the loaded coordinates of all problems, complex.
+
+    Those of the latest places are kept: a support's springs stay where they are when a lump moves.
+    """
+    known = basis.kept_motions.get((id(a.points), id(a.rows)))
+    if known is not None:
+        basis.kept_motions.move_to_end((id(a.points), id(a.rows)))
+        return np.asarray(known[1])
+    found = _moved(basis, a)
+    # the places are kept too, so that their ids stay theirs
+    basis.kept_motions[id(a.points), id(a.rows)] = ((a.points, a.rows), found)
+    if len(basis.kept_motions) > KEPT:
+        basis.kept_motions.popitem(last=False)
+    return found
+
+
+def _moved(basis: SymmetricBasis, a: Attachment) -> np.ndarray:
     real, imaginary, order = basis.surface_motion
     surface = basis.problems[0].sector.surface
     local = a.points.matrix[:, surface].toarray()

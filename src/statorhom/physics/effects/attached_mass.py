@@ -16,7 +16,8 @@ from statorhom.study.study import StudyFiles
 
 # Terminal boxes, lugs and weights: how high their centre of gravity lies decides how much the tangential motion, and
 # with it the split of the lowest orders, counts; the mass is not known better than that.
-HEIGHT_MM = EffectParameter("cog_height_mm", 3.0, 20.0, 0.5, 60.0, "log", (8.0,), None)
+USUAL_MM = 8.0
+HEIGHT_MM = EffectParameter("cog_height_mm", 3.0, 20.0, 0.5, 60.0, "log", (USUAL_MM,), None, usual=USUAL_MM)
 FOOT = 1.5  # side of the foot over the height of the centre of gravity
 LARGEST = 0.2  # of the stage's mass
 
@@ -24,7 +25,7 @@ LARGEST = 0.2  # of the stage's mass
 class AttachedMass(Effect):
     name = "attached_mass"
     summary = "a lump on the back of the core is not in the model"
-    citation = "Fox (1990), J. Sound Vib. 142, 227; Soedel (2004), Vibrations of Shells and Plates, ch. 13"
+    citation = "Fox (1990), J. Sound Vib. 142, 227; Soedel (2004), Vibrations of Shells and Plates"
     confused_with = (
         Confusion(
             "local_stiffness", "the antinode of the lower mode lies at a mass, of the upper at a stiffness"
@@ -52,7 +53,7 @@ class AttachedMass(Effect):
 
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
         length = files.geometry.core.length_mm / 1e3
-        above = values["cog_height_mm"] / 1e3
+        above = values.get("cog_height_mm", USUAL_MM) / 1e3
         foot = min(FOOT * above, 0.5 * length)
         z = min(max(values["z_m"], 0.51 * foot), length - 0.51 * foot)
 

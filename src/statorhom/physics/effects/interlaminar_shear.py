@@ -26,7 +26,7 @@ def sheared(material: Material, shear_pa: float, axial_pa: float) -> Material:
 class InterlaminarShear(Effect):
     name = "interlaminar_shear"
     summary = "the sheets slide on each other: the stack is much softer in G_rz than an isotropic one"
-    citation = "Backus (1962), J. Geophys. Res. 67, 4427; Wang and Williams (1997), J. Sound Vib. 202, 703"
+    citation = "Backus (1962), J. Geophys. Res. 67, 4427 (fine layers)"
     confused_with = (
         Confusion("local_stiffness", "the phase at the two end planes"),
         Confusion("stack_pressure_gradient", "the shapes along z"),

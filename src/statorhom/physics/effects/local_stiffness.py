@@ -23,7 +23,7 @@ RATIO = EffectParameter("stiffness_ratio", 0.3, 2.5, 0.02, 12.0, "log", (0.6, 1.
 class LocalStiffness(Effect):
     name = "local_stiffness"
     summary = "an axial strip of the back of the core is stiffer or softer: a weld, notch, keyway or cut-out"
-    citation = "Fox (1990), J. Sound Vib. 142, 227; Perrin (1971), Acustica 25, 69"
+    citation = "Fox (1990), J. Sound Vib. 142, 227 (slightly imperfect rings)"
     confused_with = (
         Confusion(
             "attached_mass", "the antinode of the upper mode lies at the strip; the split grows with order"

@@ -25,9 +25,7 @@ AMPLITUDE = EffectParameter("relative_amplitude", 0.003, 0.05, 1e-4, 0.3, "log",
 class Ovality(Effect):
     name = "ovality"
     summary = "the yoke's stiffness or thickness varies around the stator as cos n(θ − α)"
-    citation = (
-        "Charnley and Perrin (1973), Acustica 28; Hwang, Fox and McWilliam (1999), J. Sound Vib. 220, 497"
-    )
+    citation = "Hwang, Fox and McWilliam (1999), J. Sound Vib. 220, 497 (rings of varying profile)"
     confused_with = (
         Confusion("attached_mass", "one order r alone splits"),
         Confusion("local_stiffness", "one order r alone splits"),

@@ -17,7 +17,7 @@ MASS = EffectParameter("mass_kg", 0.001, 0.03, 1e-4, 0.2, "log", (0.008,), None)
 class SensorMass(Effect):
     name = "sensor_mass"
     summary = "the roving accelerometer's mass moves the poles from point to point"
-    citation = "Ewins (2000), Modal Testing, section 3.4; Decker and Witfeld (1995), Proc. IMAC 13"
+    citation = "Ewins (2000), Modal Testing, ch. 3"
     confused_with = (Confusion("attached_mass", "the poles of all points agree"),)
     note = "at the accelerometer's place on the surface, in all directions"
 

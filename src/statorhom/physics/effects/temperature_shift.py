@@ -21,7 +21,7 @@ TEMPERATURE = EffectParameter("temperature_k", -40.0, 60.0, -80.0, 150.0, "linea
 class TemperatureShift(Effect):
     name = "temperature_shift"
     summary = "a test was run at another temperature than assumed"
-    citation = "Nashif, Jones and Henderson (1985), Vibration Damping, ch. 3"
+    citation = "Nashif, Jones and Henderson (1985), Vibration Damping (moduli over temperature)"
     confused_with = (Confusion("wrong_input", "a thermometer"),)
     note = "difference from the temperature assumed; stiffness of steel -3e-4 per K, of windings -1e-2 per K"
 

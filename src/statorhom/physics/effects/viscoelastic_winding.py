@@ -20,7 +20,7 @@ SLOPE = EffectParameter("modulus_slope_per_decade", -0.1, 0.8, -0.5, 2.5, "linea
 class ViscoelasticWinding(Effect):
     name = "viscoelastic_winding"
     summary = "the winding's modulus rises with frequency"
-    citation = "Nashif, Jones and Henderson (1985), Vibration Damping, ch. 2"
+    citation = "Nashif, Jones and Henderson (1985), Vibration Damping (moduli over frequency)"
     confused_with = (Confusion("end_winding_stiffness", "a probe on the overhang"),)
     note = "E(f) = E(1 kHz) (1 + a log10(f / 1 kHz)) of slots and overhang alike"
 

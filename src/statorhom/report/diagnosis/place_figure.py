@@ -22,6 +22,7 @@ from statorhom.report.figures.canvas import (
     tidy,
 )
 from statorhom.results.diagnosis import AngleRow, EffectResult, MachineRow, MapRow
+from statorhom.study.message import one_line
 
 TINTS = LinearSegmentedColormap.from_list("tints", ["#ffffff", "#f6d9bf", "#d55e00"])
 WHOLE_TURN = 360.0
@@ -137,4 +138,6 @@ def _caption(placed: Sequence[EffectResult], row: MapRow | None, around: bool) -
 
 def _alt(placed: Sequence[EffectResult], row: MapRow | None) -> str:
     what = " and ".join(effect_words(e.effect) for e in placed) or "the contradiction"
-    return f"where {what} lies on the unrolled stator" + ("" if row is None else f", test {row.test}")
+    return one_line(
+        f"where {what} lies on the unrolled stator" + ("" if row is None else f", test {row.test}")
+    )

@@ -51,7 +51,7 @@ def sure_section(d: Diagnosis, e: Details) -> Section:
         blocks.append(Definitions(items))
     if e.citation and d.verdict == "named":
         blocks.append(Paragraph(text(f"More on the effect: {e.citation}."), "note"))
-    return Section("How sure that is", tuple(blocks))
+    return Section("How sure the diagnosis is", tuple(blocks))
 
 
 def _chances(chances: list[tuple[str, float, bool]]) -> Picture:
@@ -70,16 +70,12 @@ def _chances(chances: list[tuple[str, float, bool]]) -> Picture:
     for place, (_, p, _) in zip(places, chances, strict=True):
         said = "< 1 %" if p < 0.005 else "> 99 %" if p > 0.995 else f"{100 * p:.0f} %"
         axes.text(min(100 * p, 100) + 1, place, said, va="center", fontsize=FONT_PT - 0.5)
-    axes.set_yticks(list(places), [safe(_chance_name(e)) for e, _, _ in chances])
+    axes.set_yticks(list(places), [safe(effect_words(e)) for e, _, _ in chances])
     axes.set_xlim(0, 112)
     axes.set_xticks(range(0, 101, 25))
     axes.set_xlabel("probability (%), all effects thought equally likely beforehand")
     tidy(axes, "x")
     return Picture(svg(figure), "svg", 140.0, "probabilities of the explanations")
-
-
-def _chance_name(effect: str) -> str:
-    return "nothing is missing" if effect == "none" else effect_words(effect)
 
 
 def _rules(d: Diagnosis, e: Details) -> Table:

@@ -41,7 +41,7 @@ def _explained(d: Diagnosis, e: Details) -> Text:
     return text(
         "The model as the study declares it cannot meet the measurements with any constants, and no effect in the "
         "program’s library passes all the tests below. The constants identified from these measurements are not to be "
-        "trusted; the next section says where the contradiction lies."
+        "trusted; “Where the model fails” says what contradicts it."
     )
 
 
@@ -78,6 +78,8 @@ def _alternatives(d: Diagnosis, details: Details) -> list[Text]:
 
 
 def _summary(effect: str, details: Details) -> str:
+    if effect == "none":
+        return "the declared model is right, and the misfit an accident"
     parts = [details.summaries.get(name, effect_words(name)) for name in effect.split("+")]
     return "; and ".join(parts)
 

@@ -36,7 +36,7 @@ def where_section(d: Diagnosis, details: Details) -> Section:
         blocks.append(_regions(row))
     if picture is None:
         blocks.append(Paragraph(text(_no_picture(d, details))))
-    return Section("Where", tuple(blocks))
+    return Section("Where the model fails", tuple(blocks))
 
 
 def _map(d: Diagnosis, details: Details) -> MapRow | None:

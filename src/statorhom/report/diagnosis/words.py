@@ -39,6 +39,8 @@ KINDS = {
 
 def effect_words(effect: str) -> str:
     """An effect's name without its underscores."""
+    if effect == "none":
+        return "nothing is missing"
     return one_line(effect.replace("_", " ").replace("+", " and "))
 
 

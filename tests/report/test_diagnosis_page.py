@@ -1,0 +1,153 @@
+"""The diagnosis page of every verdict: what it must say, what it must keep of the identification, what it escapes."""
+
+from __future__ import annotations
+
+import html
+import re
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+from statorhom.errors import ResultsError
+from statorhom.report import write_report
+from statorhom.report.diagnosis.fingerprint_figure import misses
+from statorhom.report.diagnosis.page import diagnosis_document
+from statorhom.report.diagnosis.words import figure, quantity, sizes_words
+from statorhom.report.html import render_html
+from statorhom.results import write_results
+from statorhom.results.diagnosis import Estimated, FeatureRow, Verdict, write_diagnosis
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from example_diagnosis import example_details, example_diagnosis
+from example_results import example_results, write_example
+
+VERDICTS: tuple[Verdict, ...] = ("none", "named", "ambiguous", "unknown")
+TECHNICAL = (
+    "log evidence",
+    "posterior",
+    "attached_mass",
+    "local_stiffness",
+    "mass_kg",
+    "E_p_pa",
+    "nan",
+    "None",
+)
+
+
+def words_of(page: str) -> str:
+    """What a reader sees, on one line."""
+    body = page[page.index("<body>") :]
+    return re.sub(r"\s+", " ", html.unescape(re.sub(r"<[^>]+>", " ", body)))
+
+
+def titles(page: str) -> list[str]:
+    return [html.unescape(t) for t in re.findall(r'<h2><span class="number">\d+</span>([^<]+)', page)]
+
+
+def page(verdict: Verdict, places: bool = True) -> str:
+    return render_html(
+        diagnosis_document(example_diagnosis(verdict), example_details(verdict, places=places))
+    )
+
+
+@pytest.mark.parametrize("places", [True, False])
+@pytest.mark.parametrize("verdict", VERDICTS)
+def test_every_verdict_is_told_in_plain_words(verdict: Verdict, places: bool) -> None:
+    shown = page(verdict, places)
+    assert titles(shown) == [
+        "What the model left out",
+        "Where the model fails",
+        "What was measured, and what the model says",
+        "How sure the diagnosis is",
+        "Before and after",
+    ]
+    said = words_of(shown)
+    assert not [word for word in TECHNICAL if word in said]
+    # a named effect has its place without maps too
+    assert ("unrolled" in said) == ((places and verdict != "none") or verdict == "named")
+
+
+def test_a_named_effect_has_place_size_and_probability() -> None:
+    said = words_of(page("named"))
+    assert "mass 57.0 g (90 % interval 53.0 … 62.0)" in said or "mass 57 g (90 % interval 53 … 62)" in said
+    assert "at 100° ± 3.3° around the stator (or, equally possible: 280°)" in said
+    assert "60 ± 7 mm above the core’s lower end" in said
+    assert "probability 97 %" in said
+    assert "exclude 280°" in said
+    assert "held out: not seen by the fit" in said
+    assert re.search(
+        r"absorbed by lamination: Young’s modulus .{3,40} \(step stack\) : it changes by \+2.6 %", said
+    )
+
+
+def test_what_to_measure_next_and_what_passed() -> None:
+    said = words_of(page("ambiguous"))
+    assert "Measure the phase between the two end planes." in said
+    assert "This tells attached mass from local stiffness." in said
+    assert "the decision would be safe" in said
+    unknown = page("unknown")
+    assert '<span class="warning">no</span>' in unknown and '<span class="good">yes</span>' in unknown
+
+
+def test_one_report_holds_identification_and_diagnosis(tmp_path: Path) -> None:
+    folder = write_example(tmp_path / "both")
+    write_report(folder)
+    identified = titles((folder / "report.html").read_text(encoding="utf-8"))
+    study = example_results().study
+    write_diagnosis(example_diagnosis("named", study), example_details("named"), folder)
+    write_report(folder)
+    both = titles((folder / "report.html").read_text(encoding="utf-8"))
+    assert [t for t in both if t in identified] == identified
+    assert both[:2] == [identified[0], "What the model left out"]
+    assert (folder / "report.pdf").read_bytes().startswith(b"%PDF-")
+    alone = tmp_path / "alone"
+    alone.mkdir()
+    for name in ("diagnosis.json", "diagnosis-details.json"):
+        shutil.copy(folder / name, alone)
+    write_report(alone)
+    assert titles((alone / "report.html").read_text(encoding="utf-8"))[0] == "What the model left out"
+
+
+def test_results_of_two_studies_are_not_mixed(tmp_path: Path) -> None:
+    write_results(example_results(), tmp_path)
+    write_diagnosis(example_diagnosis("none", "another"), example_details("none"), tmp_path)
+    with pytest.raises(ResultsError, match="move one of them"):
+        write_report(tmp_path)
+
+
+def test_names_from_files_are_escaped() -> None:
+    evil = "<script>alert(1)</script> $x_2$ \u202e"
+    shown = render_html(
+        diagnosis_document(example_diagnosis("named", evil, evil), example_details("named", evil))
+    )
+    assert "<script" not in shown and "\u202e" not in shown
+    assert "&lt;script&gt;" in shown
+
+
+def test_quantities_in_units_that_people_use() -> None:
+    assert quantity("normal_stiffness_n_per_m2", 1.013e10) == "normal stiffness 1.01·10¹⁰ N/m²"
+    assert (
+        quantity("temperature_k", Estimated(value=20.0, ci90=(15.0, 25.0)))
+        == "temperature 20.0 K (90 % interval 15.0 … 25.0)"
+    )
+    assert quantity("G_rz_pa", 3.7e10).endswith("37.0 GPa")
+    assert sizes_words({"input": "mass_kg", "value": 3.055}).startswith("mass_kg should be 3.0")
+    assert sizes_words({"input": "mass_kg", "value": 3.055}).endswith("kg")
+    assert figure(0.0) == "0.00" and figure(2.5e-7) == "2.50·10⁻⁷"
+
+
+def test_features_of_one_kind_count_together() -> None:
+    common = {
+        "stage": "s",
+        "test": "t",
+        "mode": (2, 0),
+        "kind": "split",
+        "measured": 0.0,
+        "after": 0.0,
+        "sd": 1.0,
+    }
+    (one,) = misses([FeatureRow(before=3.0, **common), FeatureRow(before=4.0, **common)])  # type: ignore[arg-type]
+    assert one.before == pytest.approx((12.5) ** 0.5) and one.after == 0.0
