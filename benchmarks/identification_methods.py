@@ -227,9 +227,7 @@ def run(thing: TestObject, method: str, folder: Path, extra: str = "") -> dict[s
     settings = Settings(seed=1, density=RING_DENSITY)
     with counted() as count:
         began = time.process_time()
-        results = (
-            chain(files, geometry, folder / "out", settings).run() if hasattr(geometry, "step") else None
-        )
+        results = chain(files, folder / "out", settings).run()
         total = time.process_time() - began
     stage = results.stages[0]
     mesh = MeshSeries(geometry.step((thing.kind,)), RING_DENSITY).coarsest.mesh

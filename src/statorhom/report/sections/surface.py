@@ -73,7 +73,7 @@ def _gate(found: SurfaceSummary) -> Text:
         solves,
         f", {found.check_points} of them at points that no surface was fitted to. ",
     )
-    said = f"There the surfaces are wrong by at most {last.largest_error_percent:.2f} %"
+    said = f"There the surfaces are wrong by at most {_error(last.largest_error_percent)} %"
     if found.passed:
         enlarged = len(found.rounds) - 1
         more = f" after the design was enlarged {_times(enlarged)}" if enlarged else ""
@@ -86,28 +86,30 @@ def _gate(found: SurfaceSummary) -> Text:
     )
 
 
+def _error(percent: float) -> str:
+    return f"{percent:.2f}" if percent >= 0.01 else "under 0.01"
+
+
 def _times(count: int) -> str:
     return {1: "once", 2: "twice"}.get(count, f"{count} times")
 
 
 def _rounds(found: SurfaceSummary) -> Table:
     columns = (Column(text("Points of the design"), "right"), Column(text("Largest error in %"), "right"))
-    rows = tuple(Row((text(str(r.points)), text(f"{r.largest_error_percent:.2f}"))) for r in found.rounds)
-    errors = ", ".join(f"{name} {error:.2f} %" for name, error in found.errors_percent.items())
+    rows = tuple(Row((text(str(r.points)), text(_error(r.largest_error_percent)))) for r in found.rounds)
+    errors = ", ".join(f"{name} {_error(error)} %" for name, error in found.errors_percent.items())
     return Table(columns, rows, text(f"Errors of the last design: {errors}."))
 
 
 def _band(found: SurfaceSummary) -> list[Block]:
     if found.band is None:
-        return [Paragraph(text(found.band_remark or ""), "note")] if found.band_remark else []
+        return [Paragraph(text(f"No {found.band_remark}"), "note")] if found.band_remark else []
     band = found.band
     inside = sum(m.inside for m in band.modes)
     power = {1: "straight line", 2: "parabola"}.get(band.degree, f"polynomial of degree {band.degree}")
     verdict = text(
         f"A {power} through the measured frequencies over the mode’s number has R² = {band.r_squared:.4f}. ",
-        strong(
-            f"{inside} of {plural(len(band.modes), 'verified frequency').replace('frequencys', 'frequencies')}"
-        ),
+        strong(f"{inside} of {len(band.modes)} verified frequencies"),
         f" lie in its {100 * band.confidence:.0f} % confidence interval. The interval is as wide as the frequencies "
         "scatter about the line, which is no measurement’s scatter: to lie outside says much, to lie inside little.",
     )
