@@ -10,12 +10,27 @@ from statorhom.report.html import render_html
 from statorhom.results import read_results
 from statorhom.study.study import load_study
 
+TESTS = """\
+[[stages.material_tests]]
+name = "tension"
+region = "lamination"
+constant = "E_pa"
+value = 190e9
+low = 180e9
+high = 200e9
+[[stages.material_tests]]
+name = "compression"
+region = "lamination"
+constant = "E_pa"
+value = 230e9
+"""
 SURFACE = '[stages.identify]\nmethod = "response_surface"\n[stages.identify.response_surface]\nsurface = "polynomial"\n'
 
 
 def with_surface(folder, text=SURFACE):
     path = write_study(folder)
     edit(path, "[stages.identify]\nevaluations = 60\nchains = 1\n", text)
+    edit(path, '[[stages.tests]]\nname = "stack-free"', TESTS + '[[stages.tests]]\nname = "stack-free"')
     return path
 
 
@@ -48,10 +63,30 @@ def test_the_constant_is_that_of_the_other_search(folder, tmp_path):
     assert pytest.approx(F, rel=2e-3) == E
 
 
+def test_material_tests_stand_beside_the_constant(folder):
+    stage = read_results(folder).stages[0]
+    E = stage.regions["lamination"].engineering["E_pa"]
+    tension, compression = stage.material_tests
+    assert tension.identified == E and (tension.low, tension.high) == (180e9, 200e9)
+    assert tension.difference_percent == pytest.approx(100 * abs(E.value / 190e9 - 1))
+    assert compression.difference_percent == pytest.approx(100 * abs(E.value / 230e9 - 1))
+
+
+def test_the_tests_mean_value_gives_its_own_frequencies(folder):
+    """With the density and nu of the fit all frequencies go by the root of E."""
+    stage = read_results(folder).stages[0]
+    E = stage.regions["lamination"].engineering["E_pa"].value
+    assert [f.mode for f in stage.tested_frequencies] == ["(2, 0)", "(2, 1)"]
+    for f in stage.tested_frequencies:
+        assert f.tests_hz / f.identified_hz == pytest.approx((210e9 / E) ** 0.5, rel=1e-6)
+        assert f.tests_percent == pytest.approx(100 * abs(f.tests_hz / f.measured_hz - 1))
+
+
 def test_the_report_has_a_section_of_it(folder):
     page = render_html(compose(read_results(folder), folder))
     assert "Search by response surface" in page
     assert "Pareto front" in page and "full solves" in page
+    assert "Comparison with material tests" in page and "compression" in page
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ from statorhom.report.sections.assumptions import assumptions
 from statorhom.report.sections.damping import damping
 from statorhom.report.sections.glossary import glossary
 from statorhom.report.sections.masses import masses
+from statorhom.report.sections.material_tests import material_tests
 from statorhom.report.sections.materials import materials
 from statorhom.report.sections.mesh import mesh
 from statorhom.report.sections.modes import modes
@@ -41,6 +42,7 @@ def compose(results: Results, folder: Path) -> Document:
         spectra(steps),
         mesh(steps),
         surface(steps),
+        material_tests(steps),
         sensitivity(steps),
         damping(steps),
         assumptions(steps),
