@@ -71,11 +71,11 @@ def _grid(half: np.ndarray, cells: list[int]) -> tuple[np.ndarray, np.ndarray]:
     levels = [_levels(side, count) for side, count in zip(half, cells, strict=True)]
     nodes = np.column_stack([level[place] for level, place in zip(levels, index[used].T, strict=True)])
     first = 2 * np.stack(np.meshgrid(*(np.arange(c) for c in cells), indexing="ij"), axis=-1).reshape(-1, 3)
-    corners = first[:, None, :] + _LOCAL
+    corners = first[:, None, :] + LOCAL
     return nodes, number[corners[..., 0], corners[..., 1], corners[..., 2]]
 
 
 _CORNERS = np.array([[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [0, 0, 2], [2, 0, 2], [2, 2, 2], [0, 2, 2]])
 _EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 5), (2, 6), (3, 7), (4, 5), (5, 6), (6, 7), (7, 4)]
 # positions of an element's nodes in half cells, in the local numbering of `hex_mesh`
-_LOCAL = np.vstack([_CORNERS, [(_CORNERS[a] + _CORNERS[b]) // 2 for a, b in _EDGES]])
+LOCAL = np.vstack([_CORNERS, [(_CORNERS[a] + _CORNERS[b]) // 2 for a, b in _EDGES]])

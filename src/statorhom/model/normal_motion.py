@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from statorhom.mesh.mirror_mesh import TOLERANCE, MirrorMesh
+from statorhom.mesh.wing import WingMesh
 from statorhom.model.space import Space
 
 MOST = 40  # nodes of a face that are looked at
@@ -29,6 +30,11 @@ class NormalMotion:
     def orders(self, space: Space, shapes: np.ndarray) -> np.ndarray:  # noqa: ARG002
         """Weighted amplitudes (p, k) of shapes (3 n, k)."""
         return np.asarray(self.weights[:, None] * np.real(shapes[self.components]))
+
+
+def upward_motion(mesh: WingMesh) -> NormalMotion:
+    """Vertical motion of a wing's upper face, as a roving accelerometer sees it."""
+    return NormalMotion(3 * mesh.upper + 2, 1.0)
 
 
 def normal_motion(mesh: MirrorMesh) -> NormalMotion:

@@ -12,6 +12,7 @@ import scipy.sparse as sp
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh, PartMesh
 from statorhom.mesh.mirror_mesh import MirrorMesh
+from statorhom.mesh.wing import WingMesh
 from statorhom.model.back_ends.sturdy import sturdy
 from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.cyclic.half_pitch import half_pitches
@@ -20,7 +21,7 @@ from statorhom.model.eigen import modes_below
 from statorhom.model.harmonic import all_orders, harmonic_spaces
 from statorhom.model.harmonic import spaces_of as harmonics_of
 from statorhom.model.mirror_space import mirror_space
-from statorhom.model.normal_motion import normal_motion
+from statorhom.model.normal_motion import normal_motion, upward_motion
 from statorhom.model.pitch_parts import pitch_parts
 from statorhom.model.radial_profile import radial_profile
 from statorhom.model.space import Profile, Space
@@ -97,6 +98,11 @@ def _(mesh: MirrorMesh) -> Sequence[int]:
 @profile_of.register
 def _(mesh: MirrorMesh) -> Profile:
     return normal_motion(mesh)
+
+
+@profile_of.register
+def _(mesh: WingMesh) -> Profile:
+    return upward_motion(mesh)
 
 
 @eigenpairs_of.register
