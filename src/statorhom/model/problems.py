@@ -13,7 +13,7 @@ import scipy.sparse as sp
 from statorhom.mesh.hex_mesh import HalfPitchMesh, PartMesh
 from statorhom.mesh.mirror_mesh import MirrorMesh
 from statorhom.mesh.wing import WingMesh
-from statorhom.model.back_ends.choice import best_available
+from statorhom.model.back_ends.sturdy import sturdy
 from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.cyclic.half_pitch import half_pitches
 from statorhom.model.cyclic.modes import modes_of
@@ -131,12 +131,10 @@ def _(
     most: int | None = None,
     jobs: int = 1,
 ) -> list[Eigenpairs]:
-    # what supernodes are made for: a block's matrices are larger and fuller than a half pitch's
-    back_end = best_available()
-
     def solved(space: Space) -> Eigenpairs:
         K_p, M_p = space.project(K), space.project(M)
-        return (space, *modes_below(K_p, M_p, highest_hz, most=most, back_end=back_end))
+        # what supernodes are made for: a block's matrices are larger and fuller than a half pitch's
+        return (space, *modes_below(K_p, M_p, highest_hz, most=most, back_end=sturdy))
 
     spaces = [space for order in orders for space in spaces_of(mesh, order)]
     # the limit holds for all threads: entered by each, one would lift another's
