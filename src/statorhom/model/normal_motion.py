@@ -34,7 +34,7 @@ class NormalMotion:
 
 def upward_motion(mesh: WingMesh) -> NormalMotion:
     """Vertical motion of a wing's upper face, as a roving accelerometer sees it."""
-    return NormalMotion(3 * mesh.upper + 2, 1.0)
+    return NormalMotion(3 * mesh.upper + 2, np.ones(len(mesh.upper)))
 
 
 def normal_motion(mesh: MirrorMesh) -> NormalMotion:
