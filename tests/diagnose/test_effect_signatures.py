@@ -11,25 +11,30 @@ from small_stators import MATERIALS, stator_mesh
 
 from statorhom.diagnose.broken_response import responses
 from statorhom.diagnose.dimension_response import _shifts, changed_geometry, step_of
-from statorhom.diagnose.features import loading
+from statorhom.diagnose.features import loading, shift_features
+from statorhom.diagnose.measured import PlaneShifts
 from statorhom.diagnose.prediction import material_vector, predicted
 from statorhom.diagnose.ring_basis import ring_basis
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
+from statorhom.diagnose.supported import predicted_logs, supported_test
 from statorhom.geometry.stator import stator_geometry
 from statorhom.identify.model_error import ModelError
 from statorhom.identify.stage_setup import stage_setup
 from statorhom.materials.hooke import Hooke
 from statorhom.mesh import mesh_step, uniform
-from statorhom.model.affine import Material, assemble
+from statorhom.model.affine import Material, Materials, assemble
 from statorhom.model.broken.attachments import lump
 from statorhom.model.broken.basis import symmetric_basis
 from statorhom.model.broken.solve import solve_broken
 from statorhom.model.convergence import mode_keys
 from statorhom.model.free_modes import solve_free
+from statorhom.model.supported_modes import solve_supported
+from statorhom.model.supports import support_on
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.library import library
 from statorhom.study.study import StudyFiles, load_study
+from statorhom.study.supports import SupportKeys
 
 TOP = 5000.0
 KEYS = ((2, 0, 0), (2, 1, 0), (3, 0, 0))
@@ -169,10 +174,62 @@ def test_a_sensor_loads_the_mode_whose_antinode_it_sits_on(stack: StageModel) ->
     mesh, mass, z = stack.model.mesh, 0.002, 0.02
     found = responses(stack, [lump(mesh, 0.4, z, mass)])
     test = SimpleNamespace(shifts=[SimpleNamespace(z_m=np.array([z]))])
-    # of modes with n > 0 the axial motion, which loads them as much, is not counted
-    for key in ((2, 0, 0), (3, 0, 0)):
+    for key in KEYS:
         lower = found[key].shift + 0.5 * np.log1p(-0.5 * abs(found[key].split))
-        assert loading(test, key, stack.amplitudes, mass) == pytest.approx(-lower, rel=0.2)  # type: ignore[arg-type]
+        assert loading(test, key, stack.amplitudes, mass) == pytest.approx(-lower, rel=0.1)  # type: ignore[arg-type]
+
+
+def test_a_sensor_moves_the_poles_from_plane_to_plane(stack: StageModel) -> None:
+    mesh, mass, key = stack.model.mesh, 0.004, (2, 1, 0)
+    places = np.array([0.01, 0.03, 0.06])
+    exact = []
+    for z in places:
+        one = responses(stack, [lump(mesh, 0.4, z, mass)])[key]
+        exact.append(one.shift + 0.5 * np.log1p(-0.5 * abs(one.split)))
+    rest = np.array(exact) - np.mean(exact)
+    seen = PlaneShifts("1", places, rest, np.full(3, 1e-6), 0.0)
+    test = SimpleNamespace(name="free", shifts=(seen,))
+    found = shift_features(test, {"1": key}, stack.amplitudes, mass)  # type: ignore[arg-type]
+    assert [f.predicted for f in found] == pytest.approx(rest, abs=0.1 * np.ptp(rest))
+
+
+@pytest.mark.parametrize("stiffness", [1.1e9, 1.1e10, 1.1e11])
+def test_an_elastic_support(stiffness: float, files: StudyFiles, stack: StageModel) -> None:
+    """Frequencies on its springs, and how they follow the stiffness of the springs and of the core."""
+    one = candidate(files, "support_compliance", "stack")
+    test = SimpleNamespace(name="held", support="clamped", shapes=None)
+    before = stack.reference["lamination"]
+    hooke = before.hooke.matrix.copy()
+    hooke[3, 3] *= 1.1
+    hooke[4, 4] *= 1.1
+    others = (
+        Material(Hooke(1.1 * before.hooke.matrix), before.density),
+        Material(Hooke(hooke), before.density),
+        Material(before.hooke, 1.1 * before.density),
+    )
+    logs, exact = [], []
+    for per_metre in (0.8 * stiffness, stiffness):
+        given = values_of(one, normal_stiffness_n_per_m2=per_metre)
+        action = library()["support_compliance"].action(one, given, files)
+        reference = supported_test(files, stack, test, [action], (per_metre,))  # type: ignore[arg-type]
+        assert reference is not None
+        logs.append(reference.log_f[:5])
+        exact.append(log_supported(stack, action.supports["clamped"], stack.reference))
+    for found, full in zip(logs, exact, strict=True):
+        assert found == pytest.approx(full, abs=2e-3)
+    assert logs[1] - logs[0] == pytest.approx(exact[1] - exact[0], rel=0.03, abs=1e-4)
+    for other in others:
+        materials = {"lamination": other}
+        free = mode_keys(stack.solve(materials).modes)
+        modes = {key: SimpleNamespace(log_f=np.log(m.frequency_hz)) for key, m in free.items()}
+        moved = np.sort(predicted_logs(stack, reference, modes, materials))[:5]  # type: ignore[arg-type]
+        full = log_supported(stack, action.supports["clamped"], materials)
+        assert moved - logs[1] == pytest.approx(full - exact[1], rel=0.05, abs=1e-3)
+
+
+def log_supported(stage: StageModel, keys: SupportKeys, materials: Materials) -> np.ndarray:
+    support = support_on(stage.model.mesh, keys)
+    return np.log(solve_supported(stage.model, materials, support, 3000.0).frequencies_hz[:5])
 
 
 def test_a_modulus_that_follows_the_frequency(files: StudyFiles, wound: StageModel) -> None:

@@ -23,9 +23,10 @@ def test_residuals_are_linear_up_to_the_knee_and_smooth_beyond() -> None:
 
 
 def test_the_right_sensor_mass_leaves_nothing() -> None:
-    z, amplitude = np.linspace(0.0, 0.1, 9), np.linspace(-1.0, 1.0, 9)
+    z = np.linspace(0.0, 0.1, 9)
+    amplitude = np.column_stack([np.linspace(-1.0, 1.0, 9), np.linspace(0.3, 0.5, 9)])
     places = np.array([0.005, 0.035, 0.065, 0.095])
-    square = np.interp(places, z, amplitude) ** 2
+    square = (20 * places - 1) ** 2 + (0.3 + 2 * places) ** 2
     shift = -0.5 * 0.01 * (square - square.mean())
     shifts = PlaneShifts("1", places, shift, np.full(4, 1e-5), 0.0)
     test = MeasuredTest(0, "free", "free", (), True, (), (shifts,))

@@ -26,7 +26,7 @@ SCATTER_SD = (
 SPLIT_OWN = 3e-4  # what the modes of one order differ by in it
 SPLIT_PART = 0.05  # of a split: shape and foot of what causes it are not known
 UNRESOLVED = 0.6  # of the loss factor: standard deviation of a split that shows one mode alone
-SHIFT_OWN, SHIFT_PART = 5e-5, 0.08  # of pole shifts from plane to plane: other directions of motion, scatter
+SHIFT_OWN, SHIFT_PART = 5e-5, 0.08  # of pole shifts from plane to plane: tangential motion, scatter
 LINEAR, KNEE = 8.0, 3.0  # residuals grow with their logarithm beyond: one outlier does not bend all constants
 MOST_LOSS = (
     3.0  # residual of a loss factor: a cable or a cushion can double one, and is no physics of the stator
@@ -240,19 +240,19 @@ def shift_features(
     amplitudes: Mapping[ModeKey, tuple[np.ndarray, np.ndarray]],
     sensor_kg: float,
 ) -> list[Feature]:
-    """Pole shifts from plane to plane by a sensor's mass, δf/f = -½ m φ².
+    """Pole shifts from plane to plane by a sensor's mass, δf/f = -½ m |φ|² over the directions of motion.
 
     Parameters
     ----------
     keys : label of a measured mode → its name.
-    amplitudes : heights (m) and radial amplitudes at an antinode (1/√kg) of the named modes.
+    amplitudes : heights (p,) (m) and amplitudes (p, directions) at an antinode (1/√kg) of the named modes.
     """
     found = []
     for shifts in test.shifts:
         key = keys.get(shifts.label)
         if key is None or key not in amplitudes:
             continue
-        square = np.interp(shifts.z_m, *amplitudes[key]) ** 2
+        square = _squared(shifts.z_m, *amplitudes[key])
         moved = -0.5 * sensor_kg * square
         moved = moved - moved.mean()
         for measured, p, sd in zip(shifts.shift, moved, shifts.sd, strict=True):
@@ -269,7 +269,12 @@ def loading(
     """Mean fall of ln f by a sensor's mass over the test's measuring planes."""
     if key not in amplitudes or not test.shifts:
         return 0.0
-    return 0.5 * sensor_kg * float(np.mean(np.interp(test.shifts[0].z_m, *amplitudes[key]) ** 2))
+    return 0.5 * sensor_kg * float(np.mean(_squared(test.shifts[0].z_m, *amplitudes[key])))
+
+
+def _squared(z: np.ndarray, heights: np.ndarray, amplitudes: np.ndarray) -> np.ndarray:
+    """Squared amplitude (places,) of a point that moves in several directions."""
+    return np.asarray(sum(np.interp(z, heights, one) ** 2 for one in amplitudes.T))
 
 
 def _shift_sd(sd: float, measured: float) -> float:

@@ -8,7 +8,7 @@ alone, a loss factor of a material the damping alone.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import cast
 
 import numpy as np
@@ -27,6 +27,7 @@ from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.diagnose.supported import Partners, supported_test
 from statorhom.errors import StatorhomError
+from statorhom.model.affine import Materials
 from statorhom.model.convergence import ModeKey
 from statorhom.physics.action import Action
 from statorhom.study.study_file import FREE
@@ -61,9 +62,12 @@ def by_frequency(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Featur
     columns |= {j: np.zeros(len(base)) for j in acting}
     rates = _own_slopes(h, z, told, base)
     places = {test.name: (stage, test) for stage in h.study.stages for test in stage.tests}
-    slopes = {
-        name: _mode_slopes(h.study, stage, test, told[stage.name][1][name], values, z, actions, acting)
+    changes = {
+        name: _changes(h.study, stage, test, values, z, actions, acting)
         for name, (stage, test) in places.items()
+    }
+    slopes = {
+        name: changes[name].of_modes(stage, told[stage.name][1][name]) for name, (stage, _) in places.items()
     }
     for number, feature in enumerate(base):
         if feature.key is None or feature.test not in places or rates[number] == 0.0:
@@ -72,7 +76,8 @@ def by_frequency(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Featur
         if test.support == FREE:
             own = slopes[test.name].get(feature.key)
         else:
-            own = _supported_slope(h, stage, test, slopes[test.name], feature.key[2], actions, z)
+            change = changes[test.name].powers(stage)
+            own = _supported_slope(h, stage, test, slopes[test.name], change, feature.key[2], actions, z)
         if own is not None:
             for j, slope in zip(acting, own.tolist(), strict=True):
                 columns[j][number] = rates[number] * slope
@@ -147,17 +152,49 @@ def _own_slopes(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Feature
     return slopes_of(base, found, LOG_STEP)
 
 
-def _mode_slopes(
+@dataclass(frozen=True, eq=False)
+class _Changes:
+    """What the acting constants change for one test.
+
+    Parameters
+    ----------
+    before : its materials.
+    materials : (entries, constants) change of `material_vector`.
+    mesh : (constants,) change of the mesh coordinate.
+    """
+
+    before: Materials
+    materials: FloatArray
+    mesh: FloatArray
+
+    def of_modes(
+        self, stage: StageModel, modes: Mapping[ModeKey, PredictedMode]
+    ) -> dict[ModeKey, FloatArray]:
+        """d ln f of a test's free modes."""
+        return {
+            key: slope @ self.materials + modes[key].shared * self.mesh
+            for key, slope in slopes_by_materials(stage, self.before, modes).items()
+        }
+
+    def powers(self, stage: StageModel) -> FloatArray:
+        """Of `material_change` (entries, constants) from the stage's reference."""
+        regions = tuple(self.before)
+        start, now = (material_vector(m, regions) for m in (stage.reference, self.before))
+        usable = start * now > 0.0
+        scale = np.divide(start, now, out=np.ones_like(start), where=usable)
+        return scale[:, None] * self.materials
+
+
+def _changes(
     study: StudyModel,
     stage: StageModel,
     test: MeasuredTest,
-    modes: Mapping[ModeKey, PredictedMode],
     values: Mapping[str, float],
     z: FloatArray,
     actions: Sequence[Action],
     acting: Sequence[int],
-) -> dict[ModeKey, FloatArray]:
-    """d ln f of a test's free modes by the acting constants."""
+) -> _Changes:
+    """Of the acting constants."""
     before = acted_materials(study, stage, values, actions, test.name)
     regions = tuple(before)
     start = material_vector(before, regions)
@@ -169,10 +206,7 @@ def _mode_slopes(
             mesh[column] = (constant.value(z[j] + STEP) - constant.value(z[j] - STEP)) / (2 * STEP)
         elif concerns(study, stage, constant.name):
             change[:, column] = _material_slope(study, stage, test, values, z, j, actions, regions, start)
-    return {
-        key: slope @ change + modes[key].shared * mesh
-        for key, slope in slopes_by_materials(stage, before, modes).items()
-    }
+    return _Changes(before, change, mesh)
 
 
 def _material_slope(
@@ -203,6 +237,7 @@ def _supported_slope(
     stage: StageModel,
     test: MeasuredTest,
     slopes: Mapping[ModeKey, FloatArray],
+    change: FloatArray,
     number: int,
     actions: Sequence[Action],
     z: FloatArray,
@@ -217,7 +252,9 @@ def _supported_slope(
     whole = sum(shares.values())
     if whole == 0.0:
         return None
-    return np.asarray(sum(share * slopes[k] for k, share in shares.items()) / whole)
+    free = stage.slopes(stage.reference, list(shares))
+    rest = sum(share * (slopes[k] - free[k] @ change) for k, share in shares.items())
+    return np.asarray((reference.slopes[partner] @ change + rest) / whole)
 
 
 def _density_slopes(

@@ -37,7 +37,7 @@ from statorhom.diagnose.levels import (
 )
 from statorhom.diagnose.masses import KNOWN, stage_densities
 from statorhom.diagnose.measured import MeasuredTest
-from statorhom.diagnose.prediction import PredictedMode, predicted
+from statorhom.diagnose.prediction import PredictedMode, acted_materials, predicted
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.diagnose.supported import (
@@ -152,7 +152,10 @@ class Hypothesis:
                     reference = supported_test(
                         self.study.files, stage, test, actions, self.mark(z), shapes=True
                     )
-                    held[test.name] = () if reference is None else partners(stage, test, reference, found)
+                    materials = acted_materials(self.study, stage, values, actions, test.name)
+                    held[test.name] = (
+                        () if reference is None else partners(stage, test, reference, found, materials)
+                    )
                 else:
                     keys = assigned(test, self.modes(test, actions), found)
                     held[test.name] = keys
@@ -270,7 +273,9 @@ class Hypothesis:
         reference = supported_test(self.study.files, stage, test, actions, mark)
         if reference is None:
             return []
-        logs, held = predicted_logs(stage, reference, modes), cast(Partners, self.held[test.name])
+        materials = acted_materials(self.study, stage, values, actions, test.name)
+        logs = predicted_logs(stage, reference, modes, materials)
+        held = cast(Partners, self.held[test.name])
         found = supported_features(test, held, logs, self.discrepancy)
         losses = self._losses(stage, test, modes, values, actions)
         if losses:

@@ -119,12 +119,19 @@ class StageModel:
 
     @cached_property
     def amplitudes(self) -> Mapping[ModeKey, tuple[np.ndarray, np.ndarray]]:
-        """Heights (m) and radial antinode amplitudes (1/√kg) of the named modes at the reference."""
-        planes, solved = radial_profile(self.model.mesh).planes, self.solve(self.reference)
-        return {
-            key: (planes, self.ring.problems[m.problem].profile @ solved.vectors[m.problem][:, m.column])
-            for key, m in self.reference_keys.items()
-        }
+        """Heights (p,) (m) and antinode amplitudes (p, 2) (1/√kg) of the named modes at the reference.
+
+        Radial, then axial: a mass moves with the surface in both. Where both are largest nothing moves tangentially.
+        """
+        profile, solved = radial_profile(self.model.mesh), self.solve(self.reference)
+        found = {}
+        for key, mode in self.reference_keys.items():
+            problem = self.ring.problems[mode.problem]
+            vector = solved.vectors[mode.problem][:, [mode.column]]
+            shape = problem.space.expand(problem.basis @ vector)
+            axial = profile.orders(problem.space, shape, component=2)
+            found[key] = (profile.planes, np.hstack([problem.profile @ vector, axial]))
+        return found
 
     def slopes(self, materials: Materials, keys: Iterable[ModeKey]) -> dict[ModeKey, np.ndarray]:
         """d ln f by the Hooke entries and the density of all regions, one after the other."""

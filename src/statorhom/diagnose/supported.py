@@ -1,7 +1,8 @@
 """Supported tests: the stator on springs, in the basis of its free modes.
 
-How a supported frequency follows the constants is told by the free modes that it is made of: d ln f is the mean of
-theirs, weighted by their shares in the strain energy. A support declared rigid has springs far stiffer than any stator.
+How a supported frequency follows the materials is told by the energies of its own shape. What else moves the free
+modes, such as stiffness that varies around the stator, moves it by their shares in its strain energy. A support
+declared rigid has springs far stiffer than any stator.
 """
 
 from __future__ import annotations
@@ -14,8 +15,9 @@ from scipy.optimize import linear_sum_assignment
 
 from statorhom.diagnose.features import LOST, Feature, measured_sd
 from statorhom.diagnose.measured import MeasuredTest
-from statorhom.diagnose.prediction import KEPT, PredictedMode
+from statorhom.diagnose.prediction import KEPT, PredictedMode, material_vector
 from statorhom.diagnose.stage_model import StageModel
+from statorhom.diagnose.supported_slopes import HeldShapes, held_shapes
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Materials
 from statorhom.model.broken.attachments import springs
@@ -34,6 +36,8 @@ OWN = 3e-3  # relative model error of a supported frequency: lines have a width,
 LOG_SPREAD, MAC_SPREAD = 0.2, 0.2  # within which partners are sought
 GATE = 9.0
 NAME_COST = 4.0
+# springs whose shapes hold those of all others: part of the rigid stiffness, tangential ratio
+TRAININGS = tuple((part, ratio) for part in (1e-6, 1e-5, 1e-4, 1e-3, 1.0) for ratio in (0.3, 1.2))
 
 Partners = tuple[int | None, ...]
 
@@ -47,6 +51,7 @@ class SupportedReference:
     log_f : (modes,) ln of the frequencies (Hz).
     shares : named free mode → (modes,) share of its strain energy.
     held : (modes,) share of the springs to the ground.
+    slopes : (modes, entries) d ln f by the entries of `material_change`.
     radial : (modes, planes, angles) at the test's points, None where no shapes were measured or asked for.
     names : (r, n) of every mode, None where shapes were measured or names not asked for.
     """
@@ -54,6 +59,7 @@ class SupportedReference:
     log_f: np.ndarray
     shares: Mapping[ModeKey, np.ndarray]
     held: np.ndarray
+    slopes: np.ndarray
     radial: np.ndarray | None = None
     names: tuple[tuple[int | None, int | None], ...] | None = None
 
@@ -155,15 +161,41 @@ def _solved(
     log_f = np.log(modes.frequencies_hz)
     shares = {key: _share(modes, stage, key) for key in stage.columns}
     held = _held_share(modes)
+    slopes = _shapes(stage, test, keys).slopes(modes, held, stage.reference)
     if not shapes:
-        return SupportedReference(log_f, shares, held)
+        return SupportedReference(log_f, shares, held, slopes)
     if test.shapes is None:
         named = name_supported(modes, stage.model, stage.reference)
-        return SupportedReference(log_f, shares, held, None, tuple((m.order, m.axial) for m in named))
+        return SupportedReference(log_f, shares, held, slopes, None, tuple((m.order, m.axial) for m in named))
     z, angles = (a.ravel() for a in np.meshgrid(test.shapes.z_m, test.shapes.angles_rad, indexing="ij"))
     motion = modes.motion(surface_points(mesh, angles, z))[:, 0]
     shape = (len(test.shapes.z_m), len(test.shapes.angles_rad), len(modes))
-    return SupportedReference(log_f, shares, held, np.moveaxis(motion.reshape(shape), -1, 0))
+    return SupportedReference(log_f, shares, held, slopes, np.moveaxis(motion.reshape(shape), -1, 0))
+
+
+def _shapes(stage: StageModel, test: MeasuredTest, keys: SupportKeys) -> HeldShapes:
+    """Shapes on springs of all stiffnesses at the places of a support."""
+    place = ("held shapes", test.name)
+    if place not in stage.kept_responses:
+        springs = [_held_by(stage, _stiff(keys, *pair)) for pair in TRAININGS]
+        solved = [solve_broken(stage.broken, [s], tolerance=None) for s in springs]
+        _keep(stage, place, held_shapes(stage.model, solved))
+    known: HeldShapes = stage.kept_responses[place]
+    return known
+
+
+def _held_by(stage: StageModel, keys: SupportKeys) -> Attachment:
+    return _springs(stage, support_on(stage.model.mesh, keys).points)
+
+
+def _stiff(keys: SupportKeys, part: float, ratio: float) -> SupportKeys:
+    """A support of another stiffness: a part of the rigid one's."""
+    name, rigid = (
+        ("normal_stiffness_n_per_m3", RIGID_PER_M3)
+        if isinstance(keys, FaceSupport)
+        else ("normal_stiffness_n_per_m2", RIGID_PER_M2)
+    )
+    return keys.model_copy(update={"declared": "elastic", name: part * rigid, "tangential_ratio": ratio})
 
 
 def _springs(stage: StageModel, held: HeldPoints) -> Attachment:
@@ -192,14 +224,30 @@ def _held_share(modes: BrokenModes) -> np.ndarray:
 
 
 def predicted_logs(
-    stage: StageModel, reference: SupportedReference, modes: Mapping[ModeKey, PredictedMode]
+    stage: StageModel,
+    reference: SupportedReference,
+    modes: Mapping[ModeKey, PredictedMode],
+    materials: Materials,
 ) -> np.ndarray:
-    """ln f of all supported modes at the constants of `modes`, the free modes predicted there."""
-    total = reference.log_f.copy()
-    for key, share in reference.shares.items():
-        if key in modes:
-            total += share * (modes[key].log_f - np.log(stage.reference_keys[key].frequency_hz))
+    """ln f of all supported modes at given materials; `modes` are the free ones predicted there."""
+    change = material_change(stage.reference, materials)
+    total = reference.log_f + reference.slopes @ change
+    used = [key for key in reference.shares if key in modes]
+    free = stage.slopes(stage.reference, used)
+    for key in used:
+        # what of the free mode's shift the slopes do not say
+        shift = modes[key].log_f - np.log(stage.reference_keys[key].frequency_hz)
+        total += reference.shares[key] * (shift - free[key] @ change)
     return total
+
+
+def material_change(before: Materials, after: Materials) -> np.ndarray:
+    """What slopes by the entries of `material_vector` are multiplied by: frequencies follow powers of them."""
+    regions = tuple(before)
+    start, end = material_vector(before, regions), material_vector(after, regions)
+    usable = start * end > 0.0
+    ratio = np.divide(end, start, out=np.ones_like(start), where=usable)
+    return np.where(usable, start * np.log(ratio), end - start)
 
 
 def partners(
@@ -207,9 +255,10 @@ def partners(
     test: MeasuredTest,
     reference: SupportedReference,
     modes: Mapping[ModeKey, PredictedMode],
+    materials: Materials,
 ) -> Partners:
     """Number of the supported mode that each measured one is, by shape or by name."""
-    logs = predicted_logs(stage, reference, modes)
+    logs = predicted_logs(stage, reference, modes, materials)
     measured = np.log([m.frequency_hz for m in test.modes])
     cost = ((measured[:, None] - logs[None, :]) / LOG_SPREAD) ** 2
     if reference.radial is not None and test.shapes is not None:

@@ -30,11 +30,14 @@ class RadialProfile:
     points: SurfacePoints
     angles: np.ndarray
 
-    def orders(self, harmonic: Harmonic, shapes: np.ndarray) -> np.ndarray:
-        """Amplitude of order h of shapes (3 n, k) in every plane, (p, k), real."""
-        radial = self.points.evaluate(harmonic, shapes)[:, 0]
+    def orders(self, harmonic: Harmonic, shapes: np.ndarray, component: int = 0) -> np.ndarray:
+        """Amplitude of order h of shapes (3 n, k) in every plane, (p, k), real.
+
+        `component` is 0 for the radial motion and 2 for the axial one, which the mirror symmetry treats alike.
+        """
+        motion = self.points.evaluate(harmonic, shapes)[:, component]
         # the points of the neighbouring pitch carry its phase; the order's own phase takes care of both
-        turned = radial.reshape(len(self.planes), len(self.angles), -1)
+        turned = motion.reshape(len(self.planes), len(self.angles), -1)
         wave = np.exp(-1j * harmonic.order * self.angles)
         amplitude = np.einsum("pak,a->pk", turned, wave) / len(self.angles)
         # the mirror symmetry makes it real for cosine shapes and imaginary for the odd singlets

@@ -42,8 +42,7 @@ def _levels(stage: StageModel, test: MeasuredTest) -> Predict:
 
 def slip_share(action: Action) -> float:
     """Part of the stiffness that a slipping contact of an action carries: what vanishes at high levels."""
-    friction = getattr(action, "friction", None)
-    return 0.0 if friction is None else float(friction.share)
+    return 0.0 if action.friction is None else action.friction.share
 
 
 def _clamps(stage: StageModel, test: MeasuredTest) -> Predict:
