@@ -72,9 +72,9 @@ class Scan:
         best: dict[str, Signature] = {}
         seen: set[str] = set()
         for signature in self.signatures:
-            first = signature.candidate.effect not in seen
+            leads = signature.candidate.effect not in seen
             seen.add(signature.candidate.effect)
-            if signature.gain >= least_gain or (every_effect and first):
+            if signature.gain >= least_gain or (every_effect and leads):
                 best.setdefault(signature.candidate.label, signature)
         leaders = {s.candidate.effect: s.candidate.label for s in reversed(list(best.values()))}
         first = [s for label, s in best.items() if label in leaders.values()]
