@@ -104,26 +104,28 @@ def measured(function: Callable[[HalfPitchMesh], np.ndarray], size: int) -> dict
 def _measure(function: Callable[[HalfPitchMesh], np.ndarray], size: int, send: Any) -> None:
     half = half_pitch(size)
     function(half_pitch(27))  # what a process does once is no part of a solution
-    begin = time.perf_counter()
+    begin, busy = time.perf_counter(), time.process_time()
     frequencies = function(half)
-    seconds = time.perf_counter() - begin
+    seconds, busy = time.perf_counter() - begin, time.process_time() - busy
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024**2
-    send.send({"seconds": seconds, "memory_gib": memory, "hz": frequencies[frequencies > 1.0]})
+    found = {"seconds": seconds, "processor_seconds": busy, "memory_gib": memory}
+    send.send({**found, "hz": frequencies[frequencies > 1.0]})
 
 
 def calculix(program: str, size: int, cyclic: bool, threads: int) -> dict[str, Any]:
     """Time and frequencies of CalculiX, of the whole stack or with its cyclic symmetry."""
     half = half_pitch(size)
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     if cyclic:
         deck = cyclic_deck(half, "isotropic", MODES // 2)
         hz, seconds = run_ccx(program, deck, threads, read_cyclic_frequencies)
     else:
         hz, seconds = run_ccx(program, input_deck(half.full()[0], "isotropic", MODES), threads)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
     # the system keeps the largest child only: a smaller one shows nothing
-    memory = after / 1024**2 if after > before else None
-    return {"seconds": seconds, "memory_gib": memory, "hz": hz[hz > 1.0]}
+    memory = after.ru_maxrss / 1024**2 if after.ru_maxrss > before.ru_maxrss else None
+    busy = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return {"seconds": seconds, "processor_seconds": busy, "memory_gib": memory, "hz": hz[hz > 1.0]}
 
 
 def paired(size: int, repeats: int, program: str, threads: int) -> dict[str, Any]:
@@ -148,12 +150,14 @@ def _summary(size: int, runs: dict[str, list[dict[str, Any]]]) -> dict[str, Any]
         memory = [f["memory_gib"] for f in found if f["memory_gib"] is not None]
         row[name] = {
             "seconds": round(statistics.median(f["seconds"] for f in found), 3),
+            "processor_seconds": round(statistics.median(f["processor_seconds"] for f in found), 3),
             "memory_gib": round(max(memory), 2) if memory else None,
             "modes": len(found[0]["hz"]),
         }
         if name != "statorhom":
-            pairs = zip(found, runs["statorhom"], strict=True)
-            row[name]["ratio"] = round(statistics.median(f["seconds"] / o["seconds"] for f, o in pairs), 1)
+            pairs = list(zip(found, runs["statorhom"], strict=True))
+            for key, what in (("ratio", "seconds"), ("processor_ratio", "processor_seconds")):
+                row[name][key] = round(statistics.median(f[what] / o[what] for f, o in pairs), 1)
             row[name]["largest_difference"] = _difference(found[0]["hz"], runs["statorhom"][0]["hz"])
     return row
 

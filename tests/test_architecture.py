@@ -32,6 +32,7 @@ ALLOWED["fleet"] = {*PIPELINE, "results", "identify"}
 ALLOWED["report"] = {*PIPELINE, "results"}
 ALLOWED["simulate"] = {*PIPELINE, "results", "identify"}
 ALLOWED["measure"] = {*PIPELINE, "results", "identify", "report"}
+ALLOWED["ground_test"] = set(PIPELINE)
 ALLOWED["api"] = {*PIPELINE, "results", "identify", "report", "diagnose"}
 ALLOWED["command_line"] = {*PIPELINE, "results", "identify", "report"}
 ALLOWED["cli"] = {
@@ -44,6 +45,7 @@ ALLOWED["cli"] = {
     "fleet",
     "simulate",
     "measure",
+    "ground_test",
     "api",
     "command_line",
 }

@@ -10,6 +10,7 @@ from pathlib import Path
 from statorhom.diagnose.run import diagnose_study
 from statorhom.errors import InputFileError
 from statorhom.geometry.stator import StatorGeometry, stator_geometry
+from statorhom.geometry.tested_object import object_geometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.chain import chain
 from statorhom.identify.recorded_tests import with_recorded_tables
@@ -68,13 +69,16 @@ class Study:
         ------
         GeometryError
             If it is impossible.
+        InputFileError
+            If the study is of a coupon.
         """
         return stator_geometry(self.files.geometry, self.files.geometry_path)
 
     def volumes(self, stage: str) -> Mapping[str, float]:
         """Exact volume of every region after a step (m³)."""
         kinds = tuple(s.kind for s in self.files.study.stages[: self.stage_index(stage) + 1])
-        return self.geometry.step(kinds).exact_volumes()
+        geometry = object_geometry(self.files.drawing, self.files.geometry_path)
+        return geometry.step(kinds).exact_volumes()
 
     def stage_index(self, name: str) -> int:
         """Number of a step.

@@ -76,13 +76,22 @@ def modes(
         typer.Option("--study", metavar="STUDY", help="Study with a test of these files: takes its keys."),
     ] = None,
     out: Out = None,
+    sweep_hz: Annotated[
+        tuple[float, float] | None,
+        typer.Option("--sweep-hz", metavar="START STOP", help="Time records are sine sweeps over this band."),
+    ] = None,
+    segment_s: Annotated[
+        float | None,
+        typer.Option("--segment-s", help="Segments of a sweep's spectra [default: 1000 lines in its band]."),
+    ] = None,
     json: Json = False,
 ) -> None:
     """Extract the modes of a test's recordings: modal table, shapes, plots."""
-    from statorhom.measure import measure
+    from statorhom.measure import measure, sweep_settings
 
+    sweep = sweep_settings(sweep_hz, segment_s)
     with progress_bars(quiet=json) as announce:
-        table, paths = measure(recordings, study, out, announce)
+        table, paths = measure(recordings, study, out, announce, sweep)
     if json:
         typer.echo(table.to_json(orient="records"))
     else:
@@ -230,6 +239,56 @@ def conceal(
     wishes = wishes_from(effect, given or [], strength, stage, test)
     path, _ = conceal_study(study, wishes, out, seed=seed, tables=tables, wide=wide, materials=materials)
     typer.echo(f"wrote {path}")
+
+
+@app.command()
+def suspension(
+    cords: Annotated[
+        Path,
+        typer.Argument(
+            metavar="CORDS", help="CSV: x_mm, y_mm, z_mm, stiffness_n_per_m, optional length_mm, dx, dy, dz."
+        ),
+    ],
+    mass: Annotated[float, typer.Option("--mass-kg", help="Of the body on the cords.")],
+    elastic: Annotated[float, typer.Option("--elastic-hz", help="First elastic mode of the body.")],
+    inertia: Annotated[
+        tuple[float, float, float] | None,
+        typer.Option(
+            "--inertia-kg-m2",
+            metavar="IX IY IZ",
+            help="About the centre of gravity [default: the mass lies where the cords hold].",
+        ),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Say whether a body on cords is as good as free: its rigid-body modes against the first elastic one."""
+    from statorhom.ground_test import check_suspension
+
+    verdict, table = check_suspension(cords, mass, elastic, inertia)
+    if json:
+        typer.echo(table.to_json(orient="records"))
+    else:
+        print_modes(table)
+        typer.echo(verdict)
+
+
+@app.command()
+def compare(
+    measured: Annotated[Path, typer.Argument(metavar="MEASURED", help="Universal file with shapes.")],
+    simulated: Annotated[Path, typer.Argument(metavar="SIMULATED", help="Another one, at the same nodes.")],
+    least_mac: Annotated[
+        float, typer.Option("--least-mac", help="Of shapes that are called the same.")
+    ] = 0.5,
+    json: Json = False,
+) -> None:
+    """Pair the modes of two files of shapes by MAC and list the differences of their frequencies."""
+    from statorhom.ground_test import compare_shapes
+
+    table = compare_shapes(measured, simulated, least_mac)
+    if json:
+        typer.echo(table.to_json(orient="records"))
+    else:
+        print_modes(table)
 
 
 @app.command()

@@ -6,9 +6,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from statorhom.errors import InputFileError
+from statorhom.errors import InputFileError, RecordingError
 from statorhom.extraction.measured_modes import MeasuredModes, measured_modes
 from statorhom.identify.announce import Announce, silent
+from statorhom.modes.plan_form import ordinal_labels
+from statorhom.recordings.estimation.settings import SweepSettings
 from statorhom.recordings.placement import Placement
 from statorhom.report.recordings.modes_folder import picture_count, write_modes
 from statorhom.study.study_file import read_study_file
@@ -16,12 +18,15 @@ from statorhom.study.study_file import read_study_file
 if TYPE_CHECKING:
     import pandas as pd
 
+LINES = 1000  # of a sweep's band, where the length of the segments is not given
+
 
 def measure(
     recordings: Sequence[Path],
     study: Path | None = None,
     out: Path | None = None,
     announce: Announce = silent,
+    sweep: SweepSettings | None = None,
 ) -> tuple[pd.DataFrame, tuple[Path, ...]]:
     """Extract the modes of a test and write modes.csv, shapes.uff and plots/ into a folder.
 
@@ -35,6 +40,8 @@ def measure(
         The folder; by default `<name of the first file>-results` beside it.
     announce : callable
         Told what begins.
+    sweep : SweepSettings, optional
+        Time records are sine sweeps, not hits.
 
     Returns
     -------
@@ -47,11 +54,27 @@ def measure(
     """
     placement = None if study is None else _placement(study, recordings)
     done = announce("modal extraction", 1)
-    measured = measured_modes(recordings, placement)
+    measured = measured_modes(recordings, placement, sweep=sweep)
     done(1)
     folder = recordings[0].parent / f"{recordings[0].stem}-results" if out is None else out
     paths = write_modes(measured, folder, announce("plots", picture_count(measured)))
     return _table(measured), paths
+
+
+def sweep_settings(band_hz: tuple[float, float] | None, segment_s: float | None) -> SweepSettings | None:
+    """Settings from what the user typed; None where nothing was.
+
+    Raises
+    ------
+    RecordingError
+        When the segment is given without the band, or a value is none of a sweep.
+    """
+    if band_hz is None:
+        if segment_s is not None:
+            raise RecordingError("--segment-s belongs to sweeps: give --sweep-hz START STOP as well")
+        return None
+    start, stop = band_hz
+    return SweepSettings(start, stop, LINES / max(stop - start, 1e-9) if segment_s is None else segment_s)
 
 
 def _placement(study: Path, recordings: Sequence[Path]) -> Placement:
@@ -83,6 +106,9 @@ def _table(measured: MeasuredModes) -> pd.DataFrame:
         for number, one in enumerate(measured.modes, start=1)
     ]
     table = pd.DataFrame(rows)
+    if any(one.plan_form is not None for one in measured.modes):
+        table["name"] = ordinal_labels([one.plan_form for one in measured.modes])
+        table["shape"] = ["" if one.plan_form is None else one.plan_form.statement for one in measured.modes]
     if measured.sensor is not None:
         numbers = table["mode"] - 1
         for column, position in (("frequency_without_sensor_hz", 0), ("frequency_without_sensor_sd_hz", 1)):

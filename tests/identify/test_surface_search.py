@@ -11,9 +11,9 @@ from statorhom.identify.surface.cube import Cube
 from statorhom.identify.surface.design import full_factorial
 from statorhom.identify.surface.experiments import Experiments
 from statorhom.identify.surface.mode_surfaces import fit_surfaces
+from statorhom.identify.surface.part_model import part_model
 from statorhom.identify.surface.polynomial import fit_polynomial
 from statorhom.identify.surface.search import search_surface
-from statorhom.identify.surface.stator_model import stator_model
 from statorhom.identify.training import neighbouring_materials
 from statorhom.study.response_surface import SurfaceKeys
 
@@ -24,7 +24,7 @@ NARROW = {"lamination": {"E_p_pa": {"low": 150e9, "high": 220e9}, "G_rz_pa": {"l
 def experiments(prior=NARROW, fixed=KNOWN):
     space = search_space(stage.space(fixed=fixed, prior=prior))
     typical = stage.LAMINATION.of(space.values(space.start))
-    full = stator_model(stage.ring(), typical, 1.5 * stage.TOP_HZ, (2, 3))
+    full = part_model(stage.ring(), typical, 1.5 * stage.TOP_HZ, (2, 3))
     return Experiments(Cube(space), stage.LAMINATION, full, Workers())
 
 

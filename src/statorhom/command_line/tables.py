@@ -53,9 +53,11 @@ def print_measured(table: pd.DataFrame) -> None:
 
     bare = "frequency_without_sensor_hz" in table.columns
     further = ("without sensor Hz", "± Hz") if bare else ()
-    shown = Table("mode", "Hz", "± Hz", "loss %", "± %", "(r, n)", "share %", "MPC %", *further, box=None)
+    label = "name" if "name" in table.columns else "(r, n)"
+    shown = Table("mode", "Hz", "± Hz", "loss %", "± %", label, "share %", "MPC %", *further, box=None)
     for row in table.to_dict("records"):
         name = "" if pd.isna(row["order"]) else f"({row['order']}, {_or(row['axial'], '?')})"
+        name = escape(row["name"]) if "name" in row else name
         share = "" if pd.isna(row["share"]) else f"{100 * row['share']:.1f}"
         loss = f"{100 * row['loss_factor']:.3g}", f"{100 * row['loss_factor_sd']:.1g}"
         frequency = f"{row['frequency_hz']:.3f}", f"{row['frequency_sd_hz']:.1g}"

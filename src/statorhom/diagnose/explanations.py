@@ -101,7 +101,7 @@ def single_effects(
     counts : effect → number of its candidates, over which its prior is spread.
     """
     explanations: list[Explanation] = []
-    for signature in found.worth_refitting(MOST, WORTH):
+    for signature in found.worth_refitting(MOST, WORTH, nothing(base).adequacy < ADEQUATE):
         best = _best_refit(base, _starts_of(found, signature), _solved(explanations))
         if best is not None:
             explanations.append(explained(best, counts))

@@ -57,11 +57,24 @@ class Scan:
     signatures: tuple[Signature, ...]
     p_value: float
 
-    def worth_refitting(self, most: int, least_gain: float) -> tuple[Signature, ...]:
-        """The best signature of every candidate that gains enough; every effect's best one comes first."""
+    def worth_refitting(
+        self, most: int, least_gain: float, every_effect: bool = False
+    ) -> tuple[Signature, ...]:
+        """The best signature of every candidate that gains enough; every effect's best one comes first.
+
+        Parameters
+        ----------
+        most : candidates, but for the best ones of the effects.
+        least_gain : of a signature that is worth it.
+        every_effect : an effect's best signature is worth it whatever it gains: far from an optimum, where gross errors
+            are held down, a signature does not say what a refit would.
+        """
         best: dict[str, Signature] = {}
+        seen: set[str] = set()
         for signature in self.signatures:
-            if signature.gain >= least_gain:
+            leads = signature.candidate.effect not in seen
+            seen.add(signature.candidate.effect)
+            if signature.gain >= least_gain or (every_effect and leads):
                 best.setdefault(signature.candidate.label, signature)
         leaders = {s.candidate.effect: s.candidate.label for s in reversed(list(best.values()))}
         first = [s for label, s in best.items() if label in leaders.values()]

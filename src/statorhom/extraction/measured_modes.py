@@ -11,16 +11,22 @@ import numpy as np
 from statorhom.errors import IdentificationError, RecordingError
 from statorhom.extraction.extract import extract
 from statorhom.extraction.extraction import ExtractedMode, Extraction
+from statorhom.extraction.flat_bodies import flat_body_names, flat_body_remarks, is_flat_body
 from statorhom.extraction.mode_hints import ModeHints, mode_hints
+from statorhom.extraction.second_sweep import second_stage
 from statorhom.extraction.sensor_trend import SensorTrend, sensor_trend
 from statorhom.extraction.turned_partner import turned_partners
 from statorhom.modes.doublets import DoubletPair, find_doublets
 from statorhom.modes.measured_name import MeasuredName, name_measured
 from statorhom.modes.measured_shape import MeasuredShape, measured_shapes
+from statorhom.modes.plan_form import PlanFormName
 from statorhom.modes.point_layout import PointLayout, lay_out
 from statorhom.modes.shape_features import ShapeFeatures, shape_features
 from statorhom.recordings.estimation.estimate import estimate_frf
+from statorhom.recordings.estimation.settings import SweepSettings
+from statorhom.recordings.estimation.sweep import estimate_sweep_frf
 from statorhom.recordings.frf_set import FrfSet
+from statorhom.recordings.hit import Hit
 from statorhom.recordings.placement import Placement
 from statorhom.recordings.read import read_recording
 
@@ -44,6 +50,8 @@ class NamedMode:
         Whether its FRFs look non-linear.
     doublet : (r, n) or None
         Name of the mode whose other half this is, where a roving sensor turned both: the shape tells nothing.
+    plan_form : PlanFormName or None
+        Bending, torsion … of a plate or a wing; None for bodies around an axis.
     """
 
     mode: ExtractedMode
@@ -52,6 +60,7 @@ class NamedMode:
     features: ShapeFeatures | None = None
     hints: ModeHints | None = None
     doublet: tuple[int, int | None] | None = None
+    plan_form: PlanFormName | None = None
 
     @property
     def order(self) -> int | None:
@@ -109,8 +118,9 @@ def measured_modes(
     paths: Sequence[Path],
     placement: Placement | None = None,
     band_hz: tuple[float, float] | None = None,
+    sweep: SweepSettings | None = None,
 ) -> MeasuredModes:
-    """Read recordings, estimate FRFs where they are hits, extract modes and name them.
+    """Read recordings, estimate FRFs where they are time records, extract modes and name them.
 
     Parameters
     ----------
@@ -120,6 +130,8 @@ def measured_modes(
         Where points and directions are that the files do not say.
     band_hz : (low, high), optional
         Frequencies to look at; all by default.
+    sweep : SweepSettings, optional
+        Time records are sine sweeps, not hits.
 
     Raises
     ------
@@ -131,15 +143,26 @@ def measured_modes(
     if not frf_sets:
         if not recording.hits:
             raise RecordingError(f"{paths[0]}: holds neither FRFs nor hits; export FRFs or time records")
-        estimate = estimate_frf(recording.hits)
-        frf_sets = estimate.frf_sets
-        said += [fault.statement for fault in estimate.faults]
+        frf_sets, found = _estimated(recording.hits, sweep)
+        said += found
+    elif sweep is not None:
+        raise RecordingError(f"{paths[0]}: holds FRFs, which need no sweep's band; leave it out")
     extraction = extract(frf_sets, band_hz)
     modes, remarks = _named(extraction)
     modes = _with_hints(modes, extraction, frf_sets[0])
     modes, sensor = _with_sensor(modes, extraction)
     said += [*extraction.remarks, *remarks, *_moving(modes, sensor), *_non_linear(modes)]
+    if sweep is not None:
+        said += second_stage(extraction.modes)
     return MeasuredModes(frf_sets, extraction, modes, _doublets(modes), tuple(dict.fromkeys(said)), sensor)
+
+
+def _estimated(records: Sequence[Hit], sweep: SweepSettings | None) -> tuple[tuple[FrfSet, ...], list[str]]:
+    """FRFs from time records, and what is to be said of these."""
+    if sweep is not None:
+        return (estimate_sweep_frf(records, sweep),), []
+    estimate = estimate_frf(records)
+    return estimate.frf_sets, [fault.statement for fault in estimate.faults]
 
 
 def _with_sensor(
@@ -175,6 +198,10 @@ def _moving(modes: Sequence[NamedMode], sensor: SensorTrend | None) -> list[str]
 
 
 def _named(extraction: Extraction) -> tuple[tuple[NamedMode, ...], list[str]]:
+    if is_flat_body(extraction.points):
+        names = flat_body_names(extraction.modes, extraction.points)
+        pairs = zip(extraction.modes, names, strict=True)
+        return tuple(NamedMode(mode, plan_form=name) for mode, name in pairs), flat_body_remarks(names)
     try:
         layout = lay_out(extraction.points)
     except IdentificationError as error:

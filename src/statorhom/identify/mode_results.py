@@ -7,7 +7,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from statorhom.identify.model_error import DEFAULT_RELATIVE_SD
-from statorhom.identify.stage_problem import MESH, CorrectedMode, corrected, doublet_lines, pair_modes
+from statorhom.identify.stage_problem import (
+    EXPECTED,
+    MESH,
+    CorrectedMode,
+    corrected,
+    doublet_lines,
+    pair_modes,
+)
 from statorhom.identify.stage_run import StageRun
 from statorhom.identify.stage_setup import TestModes
 from statorhom.mesh.mirror_mesh import MirrorMesh
@@ -15,9 +22,6 @@ from statorhom.model.mirror_names import mirror_kind
 from statorhom.results.schema import ModeResult
 from statorhom.study.modal_table import MeasuredMode
 from statorhom.study.study_file import FREE
-
-# A simulated mode as visible as this is listed where no measured one belongs to it.
-EXPECTED = 0.2
 
 
 def simulated_modes(run: StageRun) -> list[CorrectedMode]:

@@ -17,6 +17,7 @@ from statorhom.identify.optimizers.threshold import ThresholdAccepting
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.parameters import Parameter, ParameterSpace
 from statorhom.identify.polish import Optimum, polish
+from statorhom.identify.ranked_optima import ranked_optima
 from statorhom.identify.stage_basis import TOLERANCE
 from statorhom.identify.stage_materials import DENSITY
 from statorhom.identify.stage_problem import MESH, StageProblem
@@ -135,6 +136,8 @@ def search(
         workers=workers,
         progress=progress,
     )
+    if not any(mode.order is not None for mode in problem.measured):
+        found = distinct_optima([*found, *ranked_optima(coarse, seed=seed, workers=workers)])
     hopeful = [o for o in found[:MOST_STARTS] if o.value < found[0].value + HOPELESS]
     return [problem.space.internal(coarse.space.values(o.x)) for o in hopeful]
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -25,6 +26,7 @@ MESH = "mesh"  # the coordinate that shifts all modes together by the shared mod
 PAIRING_SD = 0.03  # of ln f: how far simulated and measured modes may lie apart and still be thought the same
 GATE, LABELLED_GATE = 4.0, 12.0  # in units of PAIRING_SD
 SEEN = 0.05  # visibility from which on a mode is no unlikely partner
+EXPECTED = 0.2  # visibility from which on a test would rather find a mode
 # A test finds a strongly visible mode with this probability, one of visibility `HALF_FOUND` with half of it.
 FOUND, HALF_FOUND = 0.8, 0.1
 
@@ -101,6 +103,21 @@ def pair_modes(
     )
 
 
+def pair_by_rank(
+    measured: Sequence[MeasuredMode], simulated: Sequence[CorrectedMode]
+) -> tuple[ModeKey | None, ...]:
+    """Key of the simulated mode of the same rank, by frequency and among the visible ones, within every test."""
+    visible = sorted((m for m in simulated if m.mode.visibility >= EXPECTED), key=lambda m: m.frequency_hz)
+    keys: list[ModeKey | None] = [None] * len(measured)
+    # rows are counted anew in every test
+    starts = [i for i in range(len(measured)) if i == 0 or measured[i].row <= measured[i - 1].row]
+    for first, last in pairwise([*starts, len(measured)]):
+        order = sorted(range(first, last), key=lambda i: measured[i].frequency_hz)
+        for i, mode in zip(order, visible, strict=False):
+            keys[i] = mode.key
+    return tuple(keys)
+
+
 @dataclass(frozen=True, eq=False)
 class StageProblem(Problem):
     """Residuals of a stage's fitted modes.
@@ -114,6 +131,8 @@ class StageProblem(Problem):
     error : mesh factors and uncertainties.
     discrepancy : relative standard deviation of what the model leaves unexplained, of every mode.
     held : pairing that is kept (measured number → mode key), None to pair anew at every point.
+    by_rank : pair the k-th mode of every test with the k-th visible one instead: far from the optimum, where simulated
+        modes of any frequency abound, the nearest one says nothing.
     """
 
     space: ParameterSpace
@@ -123,6 +142,7 @@ class StageProblem(Problem):
     error: ModelError
     discrepancy: float = 0.0
     held: tuple[ModeKey | None, ...] | None = None
+    by_rank: bool = False
     _last: dict[bytes, ReducedModes] = field(default_factory=dict, init=False, repr=False)
 
     def simulated(self, x: Array) -> list[CorrectedMode]:
@@ -155,6 +175,8 @@ class StageProblem(Problem):
 
     def pairing(self, simulated: Sequence[CorrectedMode]) -> tuple[ModeKey | None, ...]:
         """Key of the simulated partner of every measured mode."""
+        if self.by_rank:
+            return pair_by_rank(self.measured, simulated)
         found = pair_modes(self.measured, simulated)
         keys: list[ModeKey | None] = [None] * len(self.measured)
         for p in found.pairs:
@@ -184,6 +206,8 @@ class StageProblem(Problem):
             self._residual(m, k, partners, line)
             for m, k, line in zip(self.measured, keys, lines, strict=True)
         ]
+        if self.by_rank:
+            return np.array([*distances, 0.0])
         unlikely = self._missed(simulated, keys) + self._hidden(keys, partners)
         return np.array([*distances, np.sqrt(unlikely)])
 

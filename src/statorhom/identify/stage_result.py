@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from statorhom.identify.intervals import Estimate
+from statorhom.identify.material_tests import material_test_results, tested_frequencies
 from statorhom.identify.mode_results import free_mode_results
 from statorhom.identify.priors import carried
 from statorhom.identify.sensitivity import sensitivity
@@ -66,6 +67,8 @@ def stage_result(
     return result.model_copy(
         update={
             "modes": modes,
+            "material_tests": material_test_results(run.setup.keys.material_tests, regions),
+            "tested_frequencies": tested_frequencies(run),
             "convergence": tuple(_convergence(run, c) for c in run.fit.convergence),
             "fit": _summary(run, modes),
             "sensitivity": _sensitivity(run),

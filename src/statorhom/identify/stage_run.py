@@ -23,8 +23,8 @@ from statorhom.identify.stage_problem import StageProblem
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.identify.surface.cube import Cube
 from statorhom.identify.surface.experiments import Experiments, FullModel
+from statorhom.identify.surface.part_model import part_model
 from statorhom.identify.surface.search import SurfaceSearch, search_surface
-from statorhom.identify.surface.stator_model import stator_model
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
@@ -57,6 +57,7 @@ class StageRun:
     basis_error : largest certified relative frequency error of the reduced model where it was trained.
     effects : that the study declares.
     surface : the search, where response surfaces did it.
+    at_tests : free modes of the fitting mesh at the values of material tests, where the study names some.
     """
 
     setup: StageSetup
@@ -70,6 +71,7 @@ class StageRun:
     basis_error: float
     effects: EffectShifts = NO_EFFECTS
     surface: SurfaceSearch | None = None
+    at_tests: FreeModes | None = None
 
 
 def run_stage(
@@ -128,7 +130,7 @@ def run_stage(
     keys, acting = setup.keys.identify, shifts if effects.actions else None
     surface: SurfaceSearch | None = None
     if keys.method == "response_surface":
-        full = stator_model(model, typical, LOOK * top, sorted({order for order, _ in names}))
+        full = part_model(model, typical, LOOK * top, sorted({order for order, _ in names}))
         surface = _by_surface(setup, searched, full, error, settings.seed, workers, announce)
         starts = surface.starts(space)
         reduced = bases.around(surface.problem_over(space), starts)
@@ -206,4 +208,26 @@ def _finished(
         basis=together([check_basis(fit.problem.solve(best), solution), *rivals]),
         basis_error=fit.problem.solver.error,
         effects=effects,
+        at_tests=_at_tests(setup, fit, series, band, orders, workers),
     )
+
+
+def _at_tests(
+    setup: StageSetup, fit: StageFit, series: MeshSeries, band: float, orders: list[int], workers: Workers
+) -> FreeModes | None:
+    """Modes with the tests' mean values in the place of the identified ones."""
+    space = fit.problem.space
+    tested: dict[str, list[float]] = {}
+    for test in setup.keys.material_tests:
+        name = f"{test.region}.{test.constant}"
+        led = {n: tie.names[0] for tie in space.ties for n in tie.names}
+        tested.setdefault(led.get(name, name), []).append(test.value)
+    if not tested:
+        return None
+    values = space.values(fit.posterior.best.x) | {name: sum(v) / len(v) for name, v in tested.items()}
+    for tie in space.ties:
+        if tie.names[0] in tested:
+            values |= dict.fromkeys(tie.names, values[tie.names[0]])
+    # stiffer samples have their modes higher up
+    stiffer = max(1.0, *(values[n] / space.values(fit.posterior.best.x)[n] for n in tested))
+    return series.solution(setup.materials.of(values), band * stiffer**0.5, orders, workers)

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from statorhom.identify.mode_results import EXPECTED, measured_alone
+from statorhom.identify.mode_results import measured_alone
 from statorhom.identify.model_error import DEFAULT_RELATIVE_SD
 from statorhom.identify.optimizers.workers import Tick, Workers
 from statorhom.identify.simulated_shapes import ShapeGrid, name_and_spectrum, shape_grid
-from statorhom.identify.stage_problem import GATE, PAIRING_SD
+from statorhom.identify.stage_problem import EXPECTED, GATE, PAIRING_SD
 from statorhom.identify.stage_run import StageRun
 from statorhom.identify.stage_setup import TestModes
 from statorhom.model.affine import stator_model

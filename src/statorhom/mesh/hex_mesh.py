@@ -58,6 +58,10 @@ class PartMesh(HexMesh):
 
     axes: ClassVar[Literal["cylindrical", "cartesian"]]
 
+    def cell_axes(self, numbers: np.ndarray) -> np.ndarray | None:  # noqa: ARG002
+        """Materials' axes (k, 3, 3) of some elements as columns, in components of `axes`; None where they are these."""
+        return None
+
     @property
     def copies(self) -> int:
         """How many copies make the body."""

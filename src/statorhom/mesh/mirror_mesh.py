@@ -34,8 +34,9 @@ class MirrorMesh(PartMesh):
     @property
     def full_dof(self) -> int:
         """Degrees of freedom of the whole body's mesh: nodes on a plane are their own image."""
-        shared = sum(self.on_plane(i).astype(int) for i in range(len(self.mirrors)))
-        return 3 * int(np.sum(2 ** (len(self.mirrors) - np.asarray(shared))))
+        planes = range(len(self.mirrors))
+        shared = sum((self.on_plane(i).astype(int) for i in planes), np.zeros(len(self.nodes), dtype=int))
+        return 3 * int(np.sum(2 ** (len(self.mirrors) - shared)))
 
     def on_plane(self, number: int) -> np.ndarray:
         """(n,) whether a node lies on a plane of symmetry."""
@@ -60,10 +61,10 @@ class MirrorMesh(PartMesh):
         mirrored : (m, planes) whether it was mirrored at each plane.
         """
         n, planes = len(self.nodes), len(self.mirrors)
-        flips = np.array(list(itertools.product((False, True), repeat=planes))).reshape(-1, planes)
+        flips = np.array(list(itertools.product((False, True), repeat=planes)), dtype=bool)
         # a node on a plane is its own image: of its copies the one that is not mirrored there counts
         own = np.column_stack([self.on_plane(i) for i in range(planes)]) if planes else np.zeros((n, 0), bool)
-        weights = 2 ** np.arange(planes)
+        weights = 2 ** np.arange(planes, dtype=np.int64)
         number = (flips[:, None, :] & ~own[None]) @ weights * n + np.arange(n)
         used, mapping = np.unique(number, return_inverse=True)
         mapping = mapping.reshape(number.shape)

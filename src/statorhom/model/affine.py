@@ -147,8 +147,10 @@ def _region_terms(mesh: PartMesh, pattern: BlockPattern, region: int) -> tuple[n
     stiffness: list[list[np.ndarray]] = [[] for _ in HOOKE_ENTRIES]
     mass = []
     volume = 0.0
-    for _, geometry in chunks(mesh, region, FRAMES[mesh.axes]):
-        for term, matrices in zip(stiffness, stiffness_blocks(geometry), strict=True):
+    for numbers, geometry in chunks(mesh, region, FRAMES[mesh.axes]):
+        for term, matrices in zip(
+            stiffness, stiffness_blocks(geometry, mesh.cell_axes(numbers)), strict=True
+        ):
             term.append(node_blocks(matrices))
         mass.append(node_blocks(mass_blocks(geometry, gauss_table().values)))
         volume += float(geometry.volume.sum())

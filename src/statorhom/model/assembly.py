@@ -14,6 +14,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from statorhom.errors import SolverError
+from statorhom.materials.rotation import stress_rotation
 from statorhom.mesh.hex_mesh import HexMesh
 from statorhom.model.element import ShapeTable, gauss_table
 from statorhom.model.frames import Frame, cylindrical
@@ -160,9 +161,17 @@ def strain_matrix(g: ElementGeometry) -> np.ndarray:
     return stacked.reshape(*stacked.shape[:3], 60)
 
 
-def stiffness_blocks(g: ElementGeometry) -> Iterator[np.ndarray]:
-    """Element stiffness per unit Hooke entry, in the order of `HOOKE_ENTRIES`, each (e, 60, 60)."""
+def stiffness_blocks(g: ElementGeometry, axes: np.ndarray | None = None) -> Iterator[np.ndarray]:
+    """Element stiffness per unit Hooke entry, in the order of `HOOKE_ENTRIES`, each (e, 60, 60).
+
+    Parameters
+    ----------
+    axes : (e, 3, 3) of the materials as columns, in components of the frame; None where they are the frame's.
+    """
     strain = strain_matrix(g)
+    if axes is not None:
+        # what turns stresses one way turns strains the other: εᵀ (N C Nᵀ) ε = (Nᵀ ε)ᵀ C (Nᵀ ε)
+        strain = np.swapaxes(stress_rotation(axes), -1, -2)[:, None] @ strain
     weighted = strain * g.volume[..., None, None]
     for i, j in HOOKE_ENTRIES:
         block = weighted[:, :, i].transpose(0, 2, 1) @ strain[:, :, j]

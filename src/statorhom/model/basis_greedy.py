@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.linalg import eigh
 
-from statorhom.model.back_ends.choice import best_available
+from statorhom.model.back_ends.sturdy import sturdy
 from statorhom.model.basis_compression import compression
 from statorhom.model.eigen import factorize, modes_below
 from statorhom.model.harmonic_terms import HarmonicTerms
@@ -75,7 +75,7 @@ class _Builder:
         top, shift = float((2 * np.pi * highest_hz) ** 2), norm_shift(highest_hz)
         self.operator = K + shift * self.metric
         # a block's matrices are larger and fuller than a half pitch's
-        self.factorize = best_available() if terms.parity == MIRROR else factorize
+        self.factorize = sturdy if terms.parity == MIRROR else factorize
         self.solve = self.factorize(self.operator)
         size, count = self.operator.shape[0], len(self.weights[0])
         self.basis = np.empty((size, 0))

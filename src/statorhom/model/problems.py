@@ -12,7 +12,8 @@ import scipy.sparse as sp
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh, PartMesh
 from statorhom.mesh.mirror_mesh import MirrorMesh
-from statorhom.model.back_ends.choice import best_available
+from statorhom.mesh.wing import WingMesh
+from statorhom.model.back_ends.sturdy import sturdy
 from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.cyclic.half_pitch import half_pitches
 from statorhom.model.cyclic.modes import modes_of
@@ -20,7 +21,7 @@ from statorhom.model.eigen import modes_below
 from statorhom.model.harmonic import all_orders, harmonic_spaces
 from statorhom.model.harmonic import spaces_of as harmonics_of
 from statorhom.model.mirror_space import mirror_space
-from statorhom.model.normal_motion import normal_motion
+from statorhom.model.normal_motion import normal_motion, upward_motion
 from statorhom.model.pitch_parts import pitch_parts
 from statorhom.model.radial_profile import radial_profile
 from statorhom.model.space import Profile, Space
@@ -99,6 +100,11 @@ def _(mesh: MirrorMesh) -> Profile:
     return normal_motion(mesh)
 
 
+@profile_of.register
+def _(mesh: WingMesh) -> Profile:
+    return upward_motion(mesh)
+
+
 @eigenpairs_of.register
 def _(
     mesh: HalfPitchMesh,
@@ -125,12 +131,10 @@ def _(
     most: int | None = None,
     jobs: int = 1,
 ) -> list[Eigenpairs]:
-    # what supernodes are made for: a block's matrices are larger and fuller than a half pitch's
-    back_end = best_available()
-
     def solved(space: Space) -> Eigenpairs:
         K_p, M_p = space.project(K), space.project(M)
-        return (space, *modes_below(K_p, M_p, highest_hz, most=most, back_end=back_end))
+        # what supernodes are made for: a block's matrices are larger and fuller than a half pitch's
+        return (space, *modes_below(K_p, M_p, highest_hz, most=most, back_end=sturdy))
 
     spaces = [space for order in orders for space in spaces_of(mesh, order)]
     # the limit holds for all threads: entered by each, one would lift another's

@@ -11,6 +11,7 @@ from statorhom.report.sections.assumptions import assumptions
 from statorhom.report.sections.damping import damping
 from statorhom.report.sections.glossary import glossary
 from statorhom.report.sections.masses import masses
+from statorhom.report.sections.material_tests import material_tests
 from statorhom.report.sections.materials import materials
 from statorhom.report.sections.mesh import mesh
 from statorhom.report.sections.modes import modes
@@ -18,6 +19,7 @@ from statorhom.report.sections.sensitivity import sensitivity
 from statorhom.report.sections.shapes import shapes
 from statorhom.report.sections.spectra import spectra
 from statorhom.report.sections.summary import summary
+from statorhom.report.sections.surface import surface
 from statorhom.results import Results
 from statorhom.study.message import one_line
 
@@ -39,6 +41,8 @@ def compose(results: Results, folder: Path) -> Document:
         shapes(steps),
         spectra(steps),
         mesh(steps),
+        surface(steps),
+        material_tests(steps),
         sensitivity(steps),
         damping(steps),
         assumptions(steps),

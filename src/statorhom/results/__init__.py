@@ -7,6 +7,7 @@ from statorhom.results.schema import (
     Convergence,
     FitSummary,
     Interval,
+    MaterialTest,
     ModeResult,
     Optimum,
     RegionResult,
@@ -14,6 +15,7 @@ from statorhom.results.schema import (
     Sensitivity,
     StageResult,
     SurfaceSummary,
+    TestedFrequency,
     VerifiedMode,
 )
 
@@ -23,6 +25,7 @@ __all__ = [
     "Convergence",
     "FitSummary",
     "Interval",
+    "MaterialTest",
     "ModeResult",
     "Optimum",
     "RegionResult",
@@ -30,6 +33,7 @@ __all__ = [
     "Sensitivity",
     "StageResult",
     "SurfaceSummary",
+    "TestedFrequency",
     "VerifiedMode",
     "read_results",
     "write_results",

@@ -185,6 +185,32 @@ class CarriedState(_Frozen):
     covariance: tuple[tuple[float, ...], ...]
 
 
+class MaterialTest(_Frozen):
+    """A mechanical test of samples beside the identified constant."""
+
+    name: str
+    region: str
+    constant: str
+    value: float
+    low: float | None = None
+    high: float | None = None
+    identified: Constant
+    difference_percent: float
+
+
+class TestedFrequency(_Frozen):
+    """A fitted mode as measured, as identified and at the mean values of the material tests."""
+
+    __test__ = False  # the name is the field's; pytest must not collect it
+
+    mode: str
+    measured_hz: float
+    identified_hz: float
+    tests_hz: float
+    identified_percent: float
+    tests_percent: float
+
+
 class StageResult(_Frozen):
     """One fabrication step."""
 
@@ -200,6 +226,8 @@ class StageResult(_Frozen):
     fit: FitSummary | None = None
     assumptions: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
+    material_tests: tuple[MaterialTest, ...] = ()
+    tested_frequencies: tuple[TestedFrequency, ...] = ()
     shapes: str | None = None  # shape file, relative to the results folder
     carried: CarriedState | None = None
     digest: str = ""

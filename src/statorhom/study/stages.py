@@ -10,6 +10,7 @@ from pydantic import AfterValidator, Field, PlainSerializer, model_validator
 from statorhom.study.declared_effects import EffectKeys
 from statorhom.study.frozen_map import FrozenMap
 from statorhom.study.keys import Keys, Name, Number, Positive, WholeNumber
+from statorhom.study.material_tests import MaterialTestKeys
 from statorhom.study.modal_tests import ModalTestKeys
 from statorhom.study.regions import REGIONS, Region, StageKind, Symmetry
 from statorhom.study.response_surface import SurfaceKeys
@@ -92,3 +93,4 @@ class StageKeys(Keys):
     tests: tuple[ModalTestKeys, ...] = ()
     identify: IdentifyKeys = IdentifyKeys()
     effects: tuple[EffectKeys, ...] = ()
+    material_tests: tuple[MaterialTestKeys, ...] = ()

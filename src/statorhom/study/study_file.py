@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 
 from statorhom.study.identify_checks import check_identify
 from statorhom.study.keys import Keys, Name, Title
+from statorhom.study.material_tests import check_material_tests
 from statorhom.study.message import quoted
 from statorhom.study.nearest import hint
 from statorhom.study.regions import (
@@ -162,6 +163,7 @@ def _check_stage(study: StudyFile, index: int) -> None:
         _check_all_declared(study, index)
     names = COUPON_CONSTANTS if stage.kind == COUPON else CONSTANTS
     check_identify(f"stages[{stage.name}]", stage.identify, _symmetries(study, index), names)
+    check_material_tests(f"stages[{stage.name}]", stage.material_tests, _symmetries(study, index), names)
 
 
 def _check_declared_regions(study: StudyFile, index: int) -> None:

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from statorhom.errors import IdentificationError
+from statorhom.identify.material_tests import difference_percent
 from statorhom.identify.surface.confidence_band import confidence_band
-from statorhom.identify.surface.material_tests import difference_percent
 
 GVT = np.array([79.85, 114.94, 134.98, 157.75])
 INITIAL = np.array([86.35, 125.58, 139.89, 162.03])

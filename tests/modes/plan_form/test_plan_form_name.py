@@ -119,7 +119,7 @@ def test_points_on_a_line_tell_bending_alone() -> None:
 
 
 def test_shapes_beyond_the_points_have_no_name() -> None:
-    points, x, y = plate(4, 3)
+    points = plate(4, 3)[0]
     assert name_plan_form(points, normal(np.array([1.0, -1.0, 1.0, -1.0] * 3))).kind is None
     noise = np.random.default_rng(0).standard_normal(45)
     assert name_plan_form(plate()[0], normal(noise)).kind is None

@@ -140,12 +140,12 @@ def _rigid_share(positions: FloatArray, motion: FloatArray) -> float:
     return 1 - float(rest @ rest) / float(target @ target)
 
 
-def ordinal_labels(names: Sequence[PlanFormName]) -> tuple[str, ...]:
+def ordinal_labels(names: Sequence[PlanFormName | None]) -> tuple[str, ...]:
     """ "1st bending", "2nd bending", "1st torsion" …: modes of a kind counted in the order given, that of frequency."""
     seen: dict[str, int] = {}
     labels = []
     for name in names:
-        if name.kind is None:
+        if name is None or name.kind is None:
             labels.append("")
             continue
         seen[name.kind] = number = seen.get(name.kind, 0) + 1

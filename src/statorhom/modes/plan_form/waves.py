@@ -91,7 +91,7 @@ def field_waves(form: PlanForm, values: FloatArray) -> FieldWaves:
 def _expansions(
     form: PlanForm, values: FloatArray, stations: tuple[int, int]
 ) -> Iterator[tuple[FloatArray, FloatArray, float]]:
-    """Coefficients (along, across), norms of the polynomials, and the mean square that is to be expected at further points.
+    """Coefficients (along, across), norms of the polynomials, and the mean square to be expected at further points.
 
     Generalized cross-validation (Golub, Heath & Wahba 1979) charges an expansion for its terms, so noise between
     the points does not choose the degrees.
@@ -101,11 +101,12 @@ def _expansions(
             terms = (along + 1) * (across + 1)
             if terms > max(_FILLED * len(values), 2):
                 continue
-            norms = np.sqrt(np.outer(2 * np.arange(along + 1) + 1, 2 * np.arange(across + 1) + 1))
+            norms: FloatArray = np.sqrt(np.outer(2 * np.arange(along + 1) + 1, 2 * np.arange(across + 1) + 1))
             columns = legendre.legvander2d(form.along, form.across, (along, across)) * norms.ravel()
-            found = np.linalg.lstsq(columns, values, rcond=_RCOND)[0]
+            found = np.asarray(np.linalg.lstsq(columns, values, rcond=_RCOND)[0], dtype=np.float64)
             left = float(np.mean((values - columns @ found) ** 2))
-            yield found.reshape(norms.shape), norms, left / (1 - terms / (len(values) + 1)) ** 2
+            expected = left / (1 - terms / (len(values) + 1)) ** 2
+            yield found.reshape(along + 1, across + 1), norms, expected
 
 
 def _stations(positions: FloatArray) -> int:

@@ -55,7 +55,7 @@ def _opening(steps: Sequence[Step]) -> Text:
         f"{plural(len(measured), 'measured mode').capitalize()} were compared with simulated ones; {number(fitted)} "
         f"of them decided about the constants, the others test them. Of "
         f"{plural(len(constants), 'elastic constant')}, ",
-        strong(f"{number(known)} could be determined by the measurements"),
+        strong(f"{number(known) if known else 'none'} could be determined by the measurements"),
         "; the others were prescribed, or the measurements leave them open."
         if known < len(constants)
         else ".",

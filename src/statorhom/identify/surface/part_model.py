@@ -1,4 +1,4 @@
-"""The full model of a stator's stage, for designs of experiments."""
+"""The full model of a stage, for designs of experiments."""
 
 from __future__ import annotations
 
@@ -7,16 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.free_modes import FreeProblem, problem_at
 from statorhom.model.stator_mode import StatorMode
 
-MORE = 4  # modes of a harmonic beyond twice those at the typical material
+MORE = 4  # modes of a problem beyond twice those at the typical material
 
 
 @dataclass(frozen=True)
-class StatorTask:
-    """The half pitch at one material.
+class PartTask:
+    """The part at one material.
 
     Parameters
     ----------
@@ -30,12 +31,12 @@ class StatorTask:
     most: int
 
     def modes(self) -> Sequence[StatorMode]:
-        """Named modes of the harmonics, sorted by frequency."""
+        """Named modes of the problems, sorted by frequency."""
         return self.problem.solve(self.highest_hz, self.orders, self.most).modes
 
 
 @dataclass(frozen=True)
-class StatorModel:
+class PartModel:
     """Makes tasks whose modes are the same ones at all materials, as far as their order does not change.
 
     Parameters
@@ -43,20 +44,20 @@ class StatorModel:
     model : of the fitting mesh.
     typical : material at which the band is the given one.
     highest_hz : of the band.
-    orders : harmonics.
-    most : lowest modes of each harmonic problem.
+    orders : numbers of the problems.
+    most : lowest modes of each problem.
     """
 
-    model: AffineModel
+    model: AffineModel[PartMesh]
     typical: Materials
     highest_hz: float
     orders: tuple[int, ...]
     most: int
 
-    def __call__(self, materials: Materials) -> StatorTask:
+    def __call__(self, materials: Materials) -> PartTask:
         """Return the task at a material; a stiffer one has its modes higher up."""
         band = self.highest_hz * np.sqrt(max(1.0, self._stiffer(materials)))
-        return StatorTask(problem_at(self.model, materials), float(band), self.orders, self.most)
+        return PartTask(problem_at(self.model, materials), float(band), self.orders, self.most)
 
     def _stiffer(self, materials: Materials) -> float:
         """Largest ratio of strain energies of a region, here over typically."""
@@ -66,10 +67,10 @@ class StatorModel:
         )
 
 
-def stator_model(
-    model: AffineModel, typical: Materials, highest_hz: float, orders: Sequence[int]
-) -> StatorModel:
+def part_model(
+    model: AffineModel[PartMesh], typical: Materials, highest_hz: float, orders: Sequence[int]
+) -> PartModel:
     """Model whose modes cover the band at the typical material and all that moves into it elsewhere."""
     solution = problem_at(model, typical).solve(highest_hz, orders)
     counts = [shape.shape[1] for shape in solution.shapes]
-    return StatorModel(model, typical, highest_hz, tuple(orders), 2 * max(counts, default=1) + MORE)
+    return PartModel(model, typical, highest_hz, tuple(orders), 2 * max(counts, default=1) + MORE)

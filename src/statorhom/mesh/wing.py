@@ -1,0 +1,75 @@
+"""20-node hexahedra of half a wing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from statorhom.geometry.wing import WingGeometry
+from statorhom.geometry.wing_lattice import NOTHING, wing_lattice
+from statorhom.mesh.block import LOCAL
+from statorhom.mesh.mirror_mesh import MirrorMesh
+
+
+@dataclass(frozen=True, eq=False)
+class WingMesh(MirrorMesh):
+    """Mesh of the right half of a wing, y = 0 the plane of symmetry.
+
+    Parameters
+    ----------
+    material_axes : (m, 3, 3) of the elements as columns, in components along x, y, z.
+    upper : nodes of the upper face's corners, where accelerometers are.
+    """
+
+    material_axes: np.ndarray
+    upper: np.ndarray
+
+    def cell_axes(self, numbers: np.ndarray) -> np.ndarray:
+        """Materials' axes of some elements."""
+        return np.asarray(self.material_axes[numbers])
+
+
+def wing_mesh(wing: WingGeometry, factor: float = 1.0) -> WingMesh:
+    """Mesh the right half of a wing.
+
+    Parameters
+    ----------
+    wing : its geometry.
+    factor : refinement along chord and span.
+    """
+    lattice = wing_lattice(wing, factor)
+    used = np.argwhere(lattice.region != NOTHING)
+    places = (2 * used)[:, None, :] + LOCAL
+    shape = tuple(2 * n + 1 for n in lattice.region.shape)
+    flat = np.ravel_multi_index(tuple(np.moveaxis(places, -1, 0)), shape)
+    numbers, elements = np.unique(flat, return_inverse=True)
+    positions = _halved(lattice.corners)
+    at = tuple(used.T)
+    top = np.ravel_multi_index(np.ix_(range(0, shape[0], 2), range(0, shape[1], 2), [shape[2] - 1]), shape)
+    return WingMesh(
+        nodes=positions.reshape(-1, 3)[numbers],
+        elements=elements.reshape(places.shape[:2]),
+        region=lattice.region[at],
+        regions=wing.regions,
+        mirrors=((1, 0.0),),
+        material_axes=lattice.axes[at],
+        upper=np.searchsorted(numbers, np.unique(top)),
+    )
+
+
+def _halved(corners: np.ndarray) -> np.ndarray:
+    """Corners with the middles between neighbours along every axis."""
+    found = corners
+    for axis in range(3):
+        shape = list(found.shape)
+        shape[axis] = 2 * shape[axis] - 1
+        finer = np.empty(shape)
+        at = [slice(None)] * 4
+        whole = np.moveaxis(found, axis, 0)
+        at[axis] = slice(0, None, 2)
+        finer[tuple(at)] = found
+        at[axis] = slice(1, None, 2)
+        finer[tuple(at)] = np.moveaxis((whole[1:] + whole[:-1]) / 2, 0, axis)
+        found = finer
+    return found
