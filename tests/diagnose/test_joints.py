@@ -63,6 +63,7 @@ def test_slopes_by_the_winding_are_those_of_the_full_model(basis: JointBasis) ->
         assert slope == pytest.approx(exact, rel=0.03)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("arc_deg", "ratio"), [(70.0, 0.1), (110.0, 0.01)])
 def test_a_weak_arc_shifts_and_splits_as_in_the_full_model(
     basis: JointBasis, arc_deg: float, ratio: float

@@ -152,10 +152,8 @@ class Hypothesis:
                     reference = supported_test(
                         self.study.files, stage, test, actions, self.mark(z), shapes=True
                     )
-                    materials = acted_materials(self.study, stage, values, actions, test.name)
-                    held[test.name] = (
-                        () if reference is None else partners(stage, test, reference, found, materials)
-                    )
+                    there = acted_materials(self.study, stage, values, actions, test.name)
+                    held[test.name] = partners(stage, test, reference, found, there) if reference else ()
                 else:
                     keys = assigned(test, self.modes(test, actions), found)
                     held[test.name] = keys
@@ -273,9 +271,8 @@ class Hypothesis:
         reference = supported_test(self.study.files, stage, test, actions, mark)
         if reference is None:
             return []
-        materials = acted_materials(self.study, stage, values, actions, test.name)
-        logs = predicted_logs(stage, reference, modes, materials)
-        held = cast(Partners, self.held[test.name])
+        there = acted_materials(self.study, stage, values, actions, test.name)
+        logs, held = predicted_logs(stage, reference, modes, there), cast(Partners, self.held[test.name])
         found = supported_features(test, held, logs, self.discrepancy)
         losses = self._losses(stage, test, modes, values, actions)
         if losses:
