@@ -32,6 +32,7 @@ from statorhom.diagnose.explanations import (
 from statorhom.diagnose.held_out import HeldOut, held_out
 from statorhom.diagnose.held_out_name import held_out_names, renames_alone
 from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.mirrored import at_likelier_height
 from statorhom.diagnose.next_measurement import Choice, next_measurement
 from statorhom.diagnose.one_line_errors import one_line_errors
 from statorhom.diagnose.place_rows import angle_rows, machine_row, map_rows, opposite_rows, summaries
@@ -135,7 +136,7 @@ def _find(
     best = found[0] if found else none
     if found:
         # reported numbers come from the explanation's own model, comparisons from the common one
-        best = replace(sharpened(best), log_evidence=best.log_evidence)
+        best = at_likelier_height(replace(sharpened(best), log_evidence=best.log_evidence))
     evidence = _evidence(base, best, none, found, signatures, settings.seed)
     return Found(decide(evidence), best, tuple(found), signatures, evidence, base)
 

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from statorhom.diagnose.explanations import Explanation
-from statorhom.diagnose.features import Feature
-from statorhom.diagnose.opposite import told_apart
-from statorhom.physics.candidate import Candidate
+from statorhom.diagnose.mirrored import height_is_told, mirrored
+from statorhom.diagnose.opposite import equivalent_angles, told_apart
 from statorhom.results.diagnosis import Location
 from statorhom.study.study_file import FREE
 
 UNTOLD = 0.5  # rad: standard deviation from which on an angle is not known
-TOLD = 3.0  # standard deviations of a split from which on it tells an angle
 
 
 def located(explanation: Explanation, number: int) -> Location | None:
@@ -36,15 +32,17 @@ def located(explanation: Explanation, number: int) -> Location | None:
         angle_sd_deg=float(np.rad2deg(sd["angle_rad"])) if degrees else None,
         angle_ambiguity_deg=degrees,
         z_mm=None if place is None else 1e3 * place,
-        z_sd_mm=None if place is None else 1e3 * min(sd["z_m"], candidate.parameters[-1].upper),
+        z_sd_mm=None if place is None else 1e3 * _height_sd(explanation, number, place, sd["z_m"]),
     )
 
 
-def equivalent_angles(explanation: Explanation, number: int) -> tuple[float, ...]:
-    """Angles (rad) that the measured splits do not tell from an effect's own; none where it has no angle."""
-    r, candidate = explanation.refit, explanation.candidates[number]
-    angle = r.hypothesis.effect_values(r.z)[number].get("angle_rad")
-    return () if angle is None else _equivalent(candidate, r.hypothesis.features(r.z), angle)
+def _height_sd(explanation: Explanation, number: int, place: float, sd: float) -> float:
+    """Standard deviation of a height (m); of both heights together where the mirrored one is as likely."""
+    other = mirrored(explanation, number)
+    if other is not None and not height_is_told(explanation, number):
+        away = other.refit.hypothesis.effect_values(other.refit.z)[number]["z_m"] - place
+        sd = float(np.hypot(sd, away / 2))
+    return min(sd, max(p.upper for p in explanation.candidates[number].parameters if p.name == "z_m"))
 
 
 def _tells_places(explanation: Explanation, number: int) -> bool:
@@ -70,17 +68,3 @@ def _deviations(explanation: Explanation, number: int) -> dict[str, float]:
             place = r.hypothesis.constants + k
             found[parameter.name] = float(unit * np.sqrt(max(covariance[place, place], 0.0)))
     return found
-
-
-def _equivalent(candidate: Candidate, features: Sequence[Feature], angle: float) -> tuple[float, ...]:
-    """Angles (rad) that the measured splits do not tell apart: the orders' common period."""
-    orders = {
-        f.key[0]
-        for f in features
-        if f.kind == "split" and f.key and f.sd < 0.5 and abs(f.measured) > TOLD * f.sd
-    }
-    period = next(p.upper - p.lower for p in candidate.parameters if p.name == "angle_rad")
-    repeats = int(np.gcd.reduce([2 * r for r in orders])) if orders else 1
-    if period < 2 * np.pi - 1e-9:
-        return (angle,)
-    return tuple(float(a) for a in (angle + 2 * np.pi * np.arange(repeats) / repeats) % (2 * np.pi))

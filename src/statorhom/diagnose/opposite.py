@@ -13,11 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from statorhom.diagnose.explanations import Explanation
+from statorhom.diagnose.features import Feature
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.model.broken.change import Change
 from statorhom.model.broken.solve import solve_broken
 from statorhom.model.surface import surface_points
+from statorhom.physics.candidate import Candidate
 from statorhom.physics.library import library
 from statorhom.study.study_file import FREE
 
@@ -26,6 +28,7 @@ FLOOR = 1e-6  # part of a shape that is never explained
 SURE = 3.0  # standard errors by which the shapes must prefer one angle to exclude another
 LEAST_WORSE = 0.05  # and the least mean of ln of what is left: less is no more than a model's error
 LEAST_SHAPES = 4
+TOLD = 3.0  # standard deviations of a split from which on it tells an angle
 
 
 @dataclass(frozen=True)
@@ -53,7 +56,7 @@ def told_apart(explanation: Explanation, number: int, angles_rad: Sequence[float
     """
     if len(angles_rad) < 2:
         return Told(tuple(angles_rad))
-    left = np.array([_left_of_all(explanation, number, angle) for angle in angles_rad])
+    left = np.array([left_of_all(explanation, number, angle) for angle in angles_rad])
     if left.shape[1] < LEAST_SHAPES:
         return Told(tuple(angles_rad))
     return ranked(tuple(angles_rad), left)
@@ -75,11 +78,13 @@ def ranked(angles_rad: Sequence[float], left: np.ndarray) -> Told:
     return Told(tuple(kept), tuple(excluded), first)
 
 
-def _left_of_all(explanation: Explanation, number: int, angle: float) -> list[float]:
-    """Part of every measured shape that the predicted modes around its frequency leave."""
+def left_of_all(explanation: Explanation, number: int, angle: float | None) -> list[float]:
+    """Part of every measured shape that the predicted modes around it leave; None: the effect's own angle."""
     r = explanation.refit
     candidate = explanation.candidates[number]
-    values = {**r.hypothesis.effect_values(r.z)[number], "angle_rad": angle}
+    values = dict(r.hypothesis.effect_values(r.z)[number])
+    if angle is not None:
+        values["angle_rad"] = angle
     action = library()[candidate.effect].action(candidate, values, r.hypothesis.study.files)
     found: list[float] = []
     for stage in r.hypothesis.study.stages:
@@ -114,3 +119,24 @@ def _left(stage: StageModel, test: MeasuredTest, changes: Sequence[Change]) -> l
         rest = measured[known] - motion[known][:, near] @ solution
         found.append(max(float(rest @ rest / (measured[known] @ measured[known])), FLOOR))
     return found
+
+
+def equivalent_angles(explanation: Explanation, number: int) -> tuple[float, ...]:
+    """Angles (rad) that the measured splits do not tell from an effect's own; none where it has no angle."""
+    r, candidate = explanation.refit, explanation.candidates[number]
+    angle = r.hypothesis.effect_values(r.z)[number].get("angle_rad")
+    return () if angle is None else _equivalent(candidate, r.hypothesis.features(r.z), angle)
+
+
+def _equivalent(candidate: Candidate, features: Sequence[Feature], angle: float) -> tuple[float, ...]:
+    """Angles (rad) that the measured splits do not tell apart: the orders' common period."""
+    orders = {
+        f.key[0]
+        for f in features
+        if f.kind == "split" and f.key and f.sd < 0.5 and abs(f.measured) > TOLD * f.sd
+    }
+    period = next(p.upper - p.lower for p in candidate.parameters if p.name == "angle_rad")
+    repeats = int(np.gcd.reduce([2 * r for r in orders])) if orders else 1
+    if period < 2 * np.pi - 1e-9:
+        return (angle,)
+    return tuple(float(a) for a in (angle + 2 * np.pi * np.arange(repeats) / repeats) % (2 * np.pi))

@@ -7,8 +7,7 @@ import numpy as np
 from statorhom.diagnose.angular_map import angles_of
 from statorhom.diagnose.error_map import error_maps
 from statorhom.diagnose.explanations import Explanation
-from statorhom.diagnose.location import equivalent_angles
-from statorhom.diagnose.opposite import told_apart
+from statorhom.diagnose.opposite import equivalent_angles, told_apart
 from statorhom.diagnose.refit import Refit
 from statorhom.physics.library import library
 from statorhom.results.diagnosis import AngleRow, MachineRow, MapRow, OppositeRow

@@ -24,6 +24,7 @@ from statorhom.model.broken.basis import SymmetricBasis, symmetric_basis
 from statorhom.model.broken.named_response import Columns
 from statorhom.model.convergence import ModeKey, converge, mode_keys
 from statorhom.model.free_modes import FreeModes, problem_at
+from statorhom.model.pitch_parts import pitch_parts
 from statorhom.model.radial_profile import radial_profile
 from statorhom.model.stator_mode import StatorMode
 from statorhom.physics.action import Training
@@ -75,6 +76,11 @@ class StageModel:
     def orders(self) -> tuple[int, ...]:
         """Harmonics that are predicted."""
         return tuple(sorted({p.space.order for p in self.ring.problems}))
+
+    @cached_property
+    def mirrors(self) -> bool:
+        """Whether the stator is its own mirror image about the core's middle."""
+        return len(pitch_parts(self.model.mesh)) > 1
 
     def solve(self, materials: Materials) -> RingModes:
         """Symmetric modes; the last materials' are kept."""
