@@ -102,6 +102,8 @@ def single_effects(
     """
     explanations: list[Explanation] = []
     for signature in found.worth_refitting(MOST, WORTH, nothing(base).adequacy < ADEQUATE):
+        if signature.gain < WORTH and _solved(explanations):
+            continue  # it promises nothing, and nothing is left to explain
         best = _best_refit(base, _starts_of(found, signature), _solved(explanations))
         if best is not None:
             explanations.append(explained(best, counts))
