@@ -105,7 +105,8 @@ def print_diagnosis(diagnosis: Diagnosis) -> None:
         console.print(escape(diagnosis.mismatch.statement))
     for effect in diagnosis.effects:
         values = ", ".join(
-            f"{name} = {p.value if isinstance(p, Estimated) else p}" for name, p in effect.parameters.items()
+            f"{name} = {f'{p.value:.4g}' if isinstance(p, Estimated) else p}"
+            for name, p in effect.parameters.items()
         )
         console.print(escape(f"{effect.effect} in stage {effect.stage}: {values} ({effect.probability:.0%})"))
     for other in diagnosis.alternatives:
