@@ -12,11 +12,11 @@ from statorhom.diagnose.dimension_response import dimension_shift
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.identify.stage_problem import NamedByMode, seen
-from statorhom.materials.hooke import Hooke
-from statorhom.model.affine import Material, Materials, hooke_coefficients
+from statorhom.model.affine import Materials, hooke_coefficients
 from statorhom.model.convergence import ModeKey, mode_keys
 from statorhom.model.stator_mode import StatorMode
 from statorhom.physics.action import Action
+from statorhom.physics.rated import at_rate, self_consistent
 
 KEPT = 256  # responses per stage
 RATE_HZ = (
@@ -183,20 +183,6 @@ def _base(stage: StageModel, materials: Materials, actions: Sequence[Action]) ->
 
 def _rated(stage: StageModel, materials: Materials, action: Action) -> dict[ModeKey, _Symmetric]:
     """Modes of a stator whose moduli follow the frequency: f with f = f(moduli at f), interpolated in ln f."""
-    trial = np.log(RATE_HZ)
-    tables = []
-    for rate in RATE_HZ:
-        scaled = {
-            r: Material(Hooke(action.modulus_at[r](rate) * m.hooke.matrix), m.density)
-            if r in action.modulus_at
-            else m
-            for r, m in materials.items()
-        }
-        tables.append(mode_keys(stage.solve(scaled).modes))
-    found = {}
-    for key, mode in tables[1].items():
-        if all(key in table for table in tables):
-            logs = np.log([table[key].frequency_hz for table in tables])
-            # f(trial) - trial falls: it crosses zero once
-            found[key] = _Symmetric(mode, float(np.interp(0.0, (trial - logs), logs)))
-    return found
+    tables = [mode_keys(stage.solve(at_rate(materials, action.modulus_at, rate)).modes) for rate in RATE_HZ]
+    logs = self_consistent(np.log(RATE_HZ), tables)
+    return {key: _Symmetric(tables[1][key], log_f) for key, log_f in logs.items()}

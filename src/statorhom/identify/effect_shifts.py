@@ -15,9 +15,8 @@ from threadpoolctl import threadpool_limits
 from statorhom.errors import IdentificationError
 from statorhom.geometry.stator import StepGeometry
 from statorhom.identify.stage_setup import StageSetup
-from statorhom.materials.hooke import Hooke
 from statorhom.mesh.hex_mesh import PartMesh
-from statorhom.model.affine import AffineModel, Material, Materials, stator_model
+from statorhom.model.affine import AffineModel, Materials, stator_model
 from statorhom.model.broken.basis import symmetric_basis
 from statorhom.model.broken.named_response import Response, columns_of, named_response
 from statorhom.model.broken.solve import solve_broken
@@ -26,6 +25,7 @@ from statorhom.model.free_modes import FreeModes, solve_free
 from statorhom.model.harmonic import Harmonic
 from statorhom.physics.action import Action
 from statorhom.physics.declared import DeclaredEffect, beyond, declared_effects
+from statorhom.physics.rated import at_rate, self_consistent
 from statorhom.study.study import StudyFiles
 from statorhom.study.study_file import FREE
 
@@ -119,20 +119,11 @@ class EffectShifts:
         if not laws:
             return {}
         trial = np.linspace(np.log(0.05 * highest_hz), np.log(highest_hz), RATES)
-        tables = []
-        for rate in np.exp(trial):
-            scaled = {
-                r: Material(Hooke(laws[r](float(rate)) * m.hooke.matrix), m.density) if r in laws else m
-                for r, m in materials.items()
-            }
-            tables.append(mode_keys(solve_free(model, scaled, 1.2 * highest_hz, orders).modes))
-        found = {}
-        for key in tables[-1]:
-            if all(key in table for table in tables):
-                logs = np.log([table[key].frequency_hz for table in tables])
-                # trial - f(trial) rises: it crosses zero once
-                found[key] = float(np.interp(0.0, trial - logs, logs))
-        return found
+        tables = [
+            mode_keys(solve_free(model, at_rate(materials, laws, rate), 1.2 * highest_hz, orders).modes)
+            for rate in np.exp(trial).tolist()
+        ]
+        return self_consistent(trial, tables)
 
 
 NO_EFFECTS = EffectShifts()
