@@ -28,6 +28,7 @@ from statorhom.study.study_file import FREE
 # per step: materials that are solved, tried, refitted in wide valleys, and sharpened
 SNAPSHOTS, TRIALS, STARTS, SHARPENED = 6, 200, 16, 3
 APART = 1.0  # prior standard deviations between starts
+BEHIND = 20.0  # of the objective in wide valleys: what stays so far behind is no other optimum worth keeping
 COARSE = 0.03  # discrepancy with which valleys are found
 SPREAD = 1.1  # of the prior: how far materials to try lie apart
 SAME_HZ = 2e-4  # relative: a basis is good enough when a snapshot moves no frequency by more
@@ -176,7 +177,11 @@ def _optima(study: StudyModel, trials: Sequence[np.ndarray]) -> list[Refit]:
         except StatorhomError:
             continue
     scored.sort(key=lambda pair: pair[0])
-    wide = [r for z in _apart([z for _, z in scored]) if (r := _refitted(coarse, z)) is not None]
+    wide: list[Refit] = []
+    for z in _apart([z for _, z in scored]):
+        # what promises nothing beside the best so far is not followed
+        worth = min((r.objective for r in wide), default=np.inf) + BEHIND
+        wide += [r] if (r := _refitted(coarse, z, worth)) is not None else []
     wide.sort(key=lambda r: r.objective)
     found = [r for w in wide[:SHARPENED] if (r := _refitted(Hypothesis(study), w.z)) is not None]
     if not found:
@@ -198,8 +203,8 @@ def _apart(points: Sequence[np.ndarray]) -> list[np.ndarray]:
     return chosen
 
 
-def _refitted(hypothesis: Hypothesis, z: np.ndarray) -> Refit | None:
+def _refitted(hypothesis: Hypothesis, z: np.ndarray, worth: float = np.inf) -> Refit | None:
     try:
-        return refit(hypothesis, z)
+        return refit(hypothesis, z, worth=worth)
     except StatorhomError:
         return None
