@@ -72,6 +72,8 @@ class Hypothesis:
     held : test → partners of its modes; None to pair anew.
     missed : -2 ln of the chance that the tests did not find the predicted modes that have no partner.
     discrepancy : relative standard deviation added to all frequencies: makes the valleys wide enough to be found.
+    trained : whether bases hold the local fields that an effect asks for (`Action.training`). They are dear, and what
+        an effect promises can be told without them.
     """
 
     study: StudyModel
@@ -80,6 +82,7 @@ class Hypothesis:
     held: Mapping[str, Keys | Partners] | None = None
     missed: float = 0.0
     discrepancy: float = 0.0
+    trained: bool = True
 
     @property
     def constants(self) -> int:
@@ -109,12 +112,15 @@ class Hypothesis:
             library()[c.effect].action(c, v, self.study.files)
             for c, v in zip(self.candidates, values, strict=True)
         )
+        if not self.trained:
+            own = (replace(action, training=None) for action in own)
         return (*own, *self.study.effects)
 
     def mark(self, z: FloatArray) -> tuple[tuple[str, tuple[float, ...]], ...]:
         """What the actions depend on."""
         values = self.effect_values(z)
-        own = ((c.label, tuple(v.values())) for c, v in zip(self.candidates, values, strict=True))
+        kind = "" if self.trained else " untrained"
+        own = ((c.label + kind, tuple(v.values())) for c, v in zip(self.candidates, values, strict=True))
         return (*own, *((f"declared {i}", ()) for i in range(len(self.study.effects))))
 
     def limits(self) -> tuple[FloatArray, FloatArray]:

@@ -182,7 +182,12 @@ def _change(base: Refit, candidate: Candidate, start: FloatArray) -> FloatArray 
     """Residuals with the effect minus those without, pairing held; None where no stator has the effect."""
     hypothesis = base.hypothesis
     acted = Hypothesis(
-        hypothesis.study, (candidate,), hypothesis.left_out, hypothesis.held, hypothesis.missed
+        hypothesis.study,
+        (candidate,),
+        hypothesis.left_out,
+        hypothesis.held,
+        hypothesis.missed,
+        trained=False,  # a signature's direction needs no local fields
     )
     try:
         with_effect = acted.features(np.r_[base.z, start])
