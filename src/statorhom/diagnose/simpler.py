@@ -14,12 +14,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from statorhom.diagnose.derivatives import jacobian
-from statorhom.diagnose.held_out import FOLDS, groups_of, left_out_errors, refit_held
+from statorhom.diagnose.held_out import groups_of, left_out_errors, refit_held
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.scan import Scan
 from statorhom.errors import StatorhomError
 
+FOLDS = 3
 ITERATIONS = 8
 LARGEST_STEP = 2.0  # in prior standard deviations
 LISTED = 5
