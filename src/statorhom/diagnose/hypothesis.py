@@ -72,8 +72,8 @@ class Hypothesis:
     held : test → partners of its modes; None to pair anew.
     missed : -2 ln of the chance that the tests did not find the predicted modes that have no partner.
     discrepancy : relative standard deviation added to all frequencies: makes the valleys wide enough to be found.
-    trained : whether bases hold the local fields that an effect asks for (`Action.training`). They are dear, and what
-        an effect promises can be told without them.
+    trained : whether bases hold the local fields that an effect asks for (`Action.training`), and machines of other
+        dimensions are solved. Both are dear, and what an effect promises can be told without them.
     """
 
     study: StudyModel
@@ -113,7 +113,7 @@ class Hypothesis:
             for c, v in zip(self.candidates, values, strict=True)
         )
         if not self.trained:
-            own = (replace(action, training=None) for action in own)
+            own = (replace(action, training=None, proportional=True) for action in own)
         return (*own, *self.study.effects)
 
     def mark(self, z: FloatArray) -> tuple[tuple[str, tuple[float, ...]], ...]:

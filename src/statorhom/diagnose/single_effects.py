@@ -164,7 +164,7 @@ def _best_refit(starts: Sequence[_Start], worth: float, *, far: bool) -> Refit |
 def _rival(start: _Start, worth: float) -> Refit | None:
     """The nearest optimum; one that is no rival is not sought with local fields, which are dear."""
     hypothesis = start.hypothesis
-    if any(action.training for action in hypothesis.actions(start.z)):
+    if any(action.training or action.dimensions for action in hypothesis.actions(start.z)):
         quick = refitted(replace(hypothesis, trained=False), start.z, worth)
         if quick is None or quick.objective > worth:
             return quick
