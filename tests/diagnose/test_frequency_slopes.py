@@ -20,6 +20,7 @@ from statorhom.geometry.stator import stator_geometry
 from statorhom.identify.stage_setup import stage_setup
 from statorhom.mesh import uniform
 
+STEP = 1e-3  # of internal coordinates
 DOUBLET = "frequency_hz,order,axial\n1428,2,0\n1434,2,0\n1766,2,1\n3770,3,0\n"
 CLAMPED = """
 [[stages.tests]]
@@ -55,12 +56,11 @@ def hypothesis(tmp_path_factory: pytest.TempPathFactory) -> Hypothesis:
     return Hypothesis(study.with_stages((stage,)))
 
 
-def test_slopes_are_those_of_moved_constants(hypothesis: Hypothesis, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_slopes_are_those_of_moved_constants(hypothesis: Hypothesis) -> None:
     z = 0.1 * np.random.default_rng(3).standard_normal(len(hypothesis))
     paired = hypothesis.paired(z)
     found = derivatives.jacobian(paired, z)
-    monkeypatch.setattr(derivatives, "by_frequency", lambda *_: {})
-    expected = derivatives.jacobian(paired, z)
+    expected = np.array([moved(paired, z, unit) for unit in STEP * np.eye(len(z))]).T
     tests = {f.test for f, row in zip(paired.features(z), found, strict=True) if np.any(row)}
     assert tests == {"", "stack-free", "stack-clamped"}
     # residuals beyond the knee bend over a step
@@ -68,3 +68,9 @@ def test_slopes_are_those_of_moved_constants(hypothesis: Hypothesis, monkeypatch
     names = paired.study.constants.names
     for name in ("stack:lamination.E_p_pa", "stack:mass_kg", "stack:mesh", "scatter 2 re"):
         assert np.any(found[:, names.index(name)]), name
+
+
+def moved(hypothesis: Hypothesis, z: np.ndarray, change: np.ndarray) -> np.ndarray:
+    """Central difference of the residuals, every mode solved anew."""
+    after, before = (hypothesis.residuals(z + sign * change) for sign in (1, -1))
+    return np.asarray((after - before) / (2 * STEP))

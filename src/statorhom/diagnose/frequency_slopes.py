@@ -35,9 +35,6 @@ from statorhom.study.study_file import FREE
 FloatArray = npt.NDArray[np.float64]
 STEP = 1e-3  # of internal coordinates
 LOG_STEP = 1e-6  # of ln f
-KINDS = frozenset(
-    {"frequency", "split", "shift", "density", "loss", "level", "level_loss"}
-)  # what follows the constants as this module says
 
 
 def by_frequency(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Feature]) -> dict[int, FloatArray]:
@@ -48,8 +45,6 @@ def by_frequency(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Featur
     h, z : the hypothesis and where.
     told, base : predictions and features there, as `Hypothesis.all_features` gives them.
     """
-    if any(f.kind not in KINDS for f in base):
-        return {}
     constants = h.study.constants
     values, actions = constants.values(z[: h.constants]), h.actions(z)
     columns = _scatter_columns(h, z, told, base)

@@ -12,14 +12,14 @@ from statorhom.identify.mode_results import shared_shift, simulated_modes
 from statorhom.identify.sensitivity import mode_name
 from statorhom.identify.stage_problem import corrected, pair_modes
 from statorhom.identify.stage_run import StageRun
+from statorhom.modes.mac_table import difference
 from statorhom.results.schema import MaterialTest, RegionResult, TestedFrequency
 from statorhom.study.material_tests import MaterialTestKeys
 
 
 def difference_percent(found: ArrayLike, reference: ArrayLike) -> Array:
     """|found − reference| / reference in per cent: the seeds' equations (11) and (13)."""
-    reference = np.asarray(reference, dtype=float)
-    return np.asarray(100.0 * np.abs((np.asarray(found, dtype=float) - reference) / reference))
+    return 100.0 * np.abs(difference(found, reference))
 
 
 def material_test_results(
