@@ -120,7 +120,9 @@ def _from_results(materials: StageMaterials, identified: Mapping[str, RegionResu
         result = identified.get(region.source)
         if result is None or result.hooke_pa is None or result.density_kg_m3 is None:
             return None
-        found[region.region] = Material(Hooke(np.array(result.hooke_pa)), result.density_kg_m3)
+        found[region.region] = region.weighted(
+            Material(Hooke(np.array(result.hooke_pa)), result.density_kg_m3)
+        )
     return found
 
 

@@ -28,6 +28,8 @@ from statorhom.model.assembly import (
 )
 from statorhom.model.element import gauss_table
 from statorhom.model.frames import FRAMES
+from statorhom.model.point_masses import lump_mass
+from statorhom.study.wing_file import LUMPS
 
 
 @dataclass(frozen=True)
@@ -74,9 +76,9 @@ class AffineModel(Generic[Mesh]):
     ----------
     mesh : of the part.
     pattern : node couplings.
-    stiffness : region → (9, places, 3, 3) block data per unit Hooke entry (m).
-    mass : region → (places, 3, 3) block data per unit density (m³).
-    volumes : region → volume in the whole body's mesh (m³).
+    stiffness : region → (9, places, 3, 3) block data per unit Hooke entry (m); lumps have none.
+    mass : region → (places, 3, 3) block data per unit density (m³); of lumps for their own masses (kg).
+    volumes : region → volume in the whole body's mesh (m³); of lumps their mass (kg), for their density is 1.
     """
 
     mesh: Mesh
@@ -136,8 +138,14 @@ def assemble(mesh: _Mesh) -> AffineModel[_Mesh]:
     pattern = block_pattern(mesh.elements, len(mesh.nodes))
     stiffness, mass, volumes = {}, {}, {}
     for i, name in enumerate(mesh.regions):
+        if name == LUMPS:
+            continue
         stiffness[name], mass[name], half = _region_terms(mesh, pattern, i)
         volumes[name] = mesh.copies * half
+    lumps = mesh.point_masses()
+    if lumps is not None:
+        mass[LUMPS] = lump_mass(pattern, lumps)
+        volumes[LUMPS] = mesh.copies * float(lumps.masses.sum())
     return AffineModel(mesh, pattern, stiffness, mass, volumes)
 
 
