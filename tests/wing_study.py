@@ -2,7 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+
+import numpy as np
+
+from statorhom.geometry.tested_object import object_geometry
+from statorhom.geometry.wing import WingGeometry
+from statorhom.identify.stage_setup import stage_setup
+from statorhom.materials.isotropic import Isotropic
+from statorhom.materials.orthotropic import Orthotropic
+from statorhom.mesh.wing import wing_mesh
+from statorhom.model.affine import Material, assemble
+from statorhom.model.free_modes import solve_free
+from statorhom.study.study import load_study
+from statorhom.study.wing_file import LUMPS
 
 # one ply on thick webs: few cells, so that whole commands take seconds
 SMALL_WING = """\
@@ -21,7 +35,7 @@ web_material = "foam"
 [[wing.plies]]
 material = "cloth"
 angle_deg = 45.0
-thickness_mm = 0.6
+thickness_mm = 2.5
 [[wing.lumps]]
 name = "fin"
 mass_g = 15.0
@@ -37,7 +51,7 @@ geometry = "object.toml"
 [[stages]]
 name = "wing"
 kind = "coupon"
-mass_kg = 0.52
+mass_kg = 1.9
 mass_sd_kg = 0.002
 [stages.model.wing]
 cloth = "orthotropic"
@@ -69,3 +83,24 @@ def write_wing(
     path = folder / "study.toml"
     path.write_text(study, encoding="utf-8")
     return path
+
+
+CLOTH = Orthotropic(47.126e9, 47.126e9, 9e9, 0.04, 0.3, 0.3, 3.927e9, 3e9, 3e9)  # the printed E and G
+FOAM = Isotropic(60e6, 0.3)
+
+
+def wing_frequencies(
+    study: Path, constants: Mapping[str, Isotropic | Orthotropic], highest_hz: float, factor: float
+) -> np.ndarray:
+    """Natural frequencies (Hz) of the free wing of a study, of given materials, on a mesh of its own."""
+    files = load_study(study)
+    setup = stage_setup(files, object_geometry(files.drawing, files.geometry_path), 0)
+    assert isinstance(setup.step, WingGeometry)
+    materials = {
+        name: Material(material.hooke(), setup.densities[name].density_kg_m3)
+        for name, material in constants.items()
+    }
+    if setup.step.lumps:
+        materials[LUMPS] = Material(materials[setup.step.regions[0]].hooke, 1.0)
+    found = solve_free(assemble(wing_mesh(setup.step, factor)), materials, highest_hz)
+    return np.array([mode.frequency_hz for mode in found.modes])

@@ -32,11 +32,11 @@ def test_the_regions_of_a_wing_are_its_materials(tmp_path: Path) -> None:
     [
         ("angle_deg = 45.0", "angle_deg = 145.0", ["wing.plies[#1].angle_deg", "at most 90", "145"]),
         ("angle_deg = 45.0", "angle_deg = -91.0", ["wing.plies[#1].angle_deg", "at least -90"]),
-        ("thickness_mm = 0.6", "thickness_mm = 0.0", ["wing.plies[#1].thickness_mm", "greater than 0"]),
+        ("thickness_mm = 2.5", "thickness_mm = 0.0", ["wing.plies[#1].thickness_mm", "greater than 0"]),
         ("mass_g = 15.0", "mass_g = 0.0", ["wing.lumps[fin].mass_g", "greater than 0"]),
         ("[30.0, 70.0]", "[30.0, 170.0]", ["wing.spars_percent", "less than 100"]),
         ("[30.0, 70.0]", "[30.0]", ["wing.spars_percent", "add what is missing"]),
-        ("thickness_mm = 0.6", "thicknes_mm = 0.6", ['unknown key "thicknes_mm"', '"thickness_mm"']),
+        ("thickness_mm = 2.5", "thicknes_mm = 2.5", ['unknown key "thicknes_mm"', '"thickness_mm"']),
         ('"cloth"', '"the cloth"', ["wing.plies[#1].material", "the cloth"]),
         ('"cloth"', '"lumps"', ["wing.plies[#1].material", "another name"]),
         (
