@@ -26,7 +26,7 @@ from statorhom.identify.stage_shapes import free_shapes
 from statorhom.identify.supported_results import supported_results
 from statorhom.materials.density import RegionDensity
 from statorhom.model.basis_store import BasisStore
-from statorhom.modes.measured_shape import MeasuredShape
+from statorhom.modes.point_shape import TestShapes
 from statorhom.results.files import check_folder, earlier_stages, write_results
 from statorhom.results.schema import RegionResult, Results, StageResult
 from statorhom.results.shape_file import write_shape_file
@@ -71,7 +71,7 @@ class Chain:
     folder: Path
     settings: Settings
     bases: Path
-    measured: Mapping[str, tuple[MeasuredShape, ...]] = field(default_factory=dict)
+    measured: Mapping[str, TestShapes] = field(default_factory=dict)
 
     def check(self) -> None:
         """Refuse, before any work, what no step can be identified from.
@@ -215,7 +215,7 @@ def chain(
     folder: Path,
     settings: Settings,
     bases: Path | None = None,
-    measured: Mapping[str, tuple[MeasuredShape, ...]] | None = None,
+    measured: Mapping[str, TestShapes] | None = None,
 ) -> Chain:
     """A chain of a study's steps.
 
