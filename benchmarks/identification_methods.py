@@ -2,7 +2,8 @@
 
     python benchmarks/identification_methods.py [--object ring] [--object plate] [--object wing] [--method annealing] …
 
-The truth is a mesh of twice as many cells (of the wing, two and a half times) with 0.1 % of noise on every frequency. Full solves are eigenproblems of the full model on
+The truth is a mesh of twice as many cells (of the wing, two and a half times) with 0.1 % of noise on every frequency.
+Full solves are eigenproblems of the full model on
 the fitting mesh, per problem that the body's symmetry leaves, up to the end of the search. What follows, the polish on
 a basis around the optimum and the verification on refined meshes, is the same for all methods. Times are processor
 times.

@@ -18,6 +18,7 @@ from statorhom.identify.measured_mac import with_mac
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.priors import Carried
 from statorhom.identify.settings import Settings
+from statorhom.identify.stage_checks import check_design, check_materials
 from statorhom.identify.stage_remarks import recording_remarks
 from statorhom.identify.stage_result import mass_only, stage_result
 from statorhom.identify.stage_run import run_stage
@@ -126,6 +127,8 @@ class Chain:
         setups = [stage_setup(self.files, self.geometry, i) for i in range(last + 1)]
         for setup in setups:
             check_fit(self.files, setup)
+            check_materials(self.files, setup)
+            check_design(self.files, setup)
             effect_shifts(self.files, setup)
         return setups
 
