@@ -9,13 +9,16 @@ from functools import cached_property
 import numpy as np
 from scipy.special import logsumexp
 from scipy.stats import chi2
+from typing_extensions import TypeVar
 
-from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.mislabelled import worth_trying
 from statorhom.diagnose.refit import Refit, refit
 from statorhom.diagnose.scan import Scan, Signature
 from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
+
+_H = TypeVar("_H", bound=AnyHypothesis)
 
 COARSE = 0.03
 STARTS = 2  # of one candidate
@@ -124,7 +127,7 @@ def with_second(first: Explanation, others: Sequence[Signature], counts: dict[st
     found = []
     for signature in others:
         start = np.r_[first.refit.z, signature.start]
-        hypothesis = Hypothesis(first.refit.hypothesis.study, (*first.candidates, signature.candidate))
+        hypothesis = blank(first.refit.hypothesis, (*first.candidates, signature.candidate))
         best = refitted(hypothesis, start)
         if best is not None:
             found.append(explained(best, counts))
@@ -152,7 +155,7 @@ def _best_refit(base: Refit, places: Sequence[tuple[Candidate, np.ndarray]], sol
     found: list[Refit] = []
     for candidate, start in places:
         z = np.r_[base.z, start]
-        hypothesis = Hypothesis(base.hypothesis.study, (candidate,), base.hypothesis.left_out)
+        hypothesis = blank(base.hypothesis, (candidate,))
         best = refitted(hypothesis, z)
         if not solved and (best is None or best.misfit > POOR * len(best.jacobian)):
             # a wide valley first: partners may change on the way
@@ -164,7 +167,12 @@ def _best_refit(base: Refit, places: Sequence[tuple[Candidate, np.ndarray]], sol
     return min(found, key=lambda r: r.objective, default=None)
 
 
-def refitted(hypothesis: Hypothesis, z: np.ndarray) -> Refit | None:
+def blank(hypothesis: _H, candidates: tuple[Candidate, ...]) -> _H:
+    """The same with other effects, and modes to be paired anew."""
+    return replace(hypothesis, candidates=candidates, held=None, missed=0.0)
+
+
+def refitted(hypothesis: _H, z: np.ndarray) -> Refit[_H] | None:
     """The nearest optimum; None where no stator has the constants of the start."""
     try:
         return refit(hypothesis, z)

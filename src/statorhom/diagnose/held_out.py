@@ -6,13 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from typing_extensions import TypeVar
 
+from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.features import Feature
-from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.refit import Refit, refit
 from statorhom.errors import StatorhomError
 from statorhom.model.convergence import ModeKey
+
+_H = TypeVar("_H", bound=AnyHypothesis)
 
 FOLDS = 3
 LEAST_FALL = 0.25
@@ -152,7 +155,7 @@ def groups_of(base: Refit) -> list[Group]:
 
 def _errors(full: Refit, fold: frozenset[Group]) -> dict[Group, tuple[float, float]]:
     """Errors of a fold in percent, and their noise, after a fit without it."""
-    hypothesis: Hypothesis = replace(full.hypothesis, left_out=fold)
+    hypothesis: AnyHypothesis = replace(full.hypothesis, left_out=fold)
     try:
         trained = refit_held(hypothesis, full.z)
     except StatorhomError:
@@ -160,7 +163,7 @@ def _errors(full: Refit, fold: frozenset[Group]) -> dict[Group, tuple[float, flo
     return left_out_errors(trained.hypothesis, trained.z)
 
 
-def left_out_errors(hypothesis: Hypothesis, z: np.ndarray) -> dict[Group, tuple[float, float]]:
+def left_out_errors(hypothesis: AnyHypothesis, z: np.ndarray) -> dict[Group, tuple[float, float]]:
     """Errors of what a hypothesis leaves out in percent, and their noise."""
     found: dict[Group, list[Feature]] = {}
     for feature in hypothesis.features(z, left_out=True):
@@ -169,7 +172,7 @@ def left_out_errors(hypothesis: Hypothesis, z: np.ndarray) -> dict[Group, tuple[
     return {group: (_error(features), _noise(features)) for group, features in found.items()}
 
 
-def refit_held(hypothesis: Hypothesis, z: np.ndarray) -> Refit:
+def refit_held(hypothesis: _H, z: np.ndarray) -> Refit[_H]:
     """Fit with the pairing as it is."""
     return refit(hypothesis, z, rounds=1)
 

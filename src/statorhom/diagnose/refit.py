@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Generic
 
 import numpy as np
 import numpy.typing as npt
+from typing_extensions import TypeVar
 
+from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.derivatives import jacobian
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.errors import StatorhomError
@@ -19,8 +22,13 @@ LARGEST_STEP = 2.0  # in prior standard deviations
 UNIFORM = 2 * np.pi / 12  # precision of a normal density that is as high as the uniform one
 
 
+# unless said otherwise, a stator's
+H = TypeVar("H", bound=AnyHypothesis, default=Hypothesis, covariant=True)
+_H = TypeVar("_H", bound=AnyHypothesis)
+
+
 @dataclass(frozen=True, eq=False)
-class Refit:
+class Refit(Generic[H]):
     """A hypothesis at its optimum.
 
     Parameters
@@ -32,7 +40,7 @@ class Refit:
     objective : with the prior.
     """
 
-    hypothesis: Hypothesis
+    hypothesis: H
     z: FloatArray
     jacobian: FloatArray
     misfit: float
@@ -73,15 +81,16 @@ def log_volume(information: FloatArray, weights: FloatArray) -> float:
     return -0.5 * float(logdet) + 0.5 * float(uniform.sum()) * float(np.log(UNIFORM))
 
 
-def refit(hypothesis: Hypothesis, start: FloatArray, rounds: int = ROUNDS) -> Refit:
+def refit(hypothesis: _H, start: FloatArray, rounds: int = ROUNDS) -> Refit[_H]:
     """The nearest optimum.
 
     Raises
     ------
     StatorhomError
-        If no stator has the constants of the start.
+        If no body has the constants of the start.
     """
-    z, best = start, None
+    z = start
+    best: Refit[_H] | None = None
     for _ in range(rounds):
         paired = hypothesis.paired(z)
         found = _polished(paired, z)
@@ -94,13 +103,13 @@ def refit(hypothesis: Hypothesis, start: FloatArray, rounds: int = ROUNDS) -> Re
     return best
 
 
-def evaluated(hypothesis: Hypothesis, z: FloatArray) -> Refit:
+def evaluated(hypothesis: _H, z: FloatArray) -> Refit[_H]:
     """A hypothesis at a point that need not be its optimum.
 
     Raises
     ------
     StatorhomError
-        If no stator has these constants.
+        If no body has these constants.
     """
     paired = hypothesis.paired(z)
     residuals = paired.residuals(z)
@@ -108,7 +117,7 @@ def evaluated(hypothesis: Hypothesis, z: FloatArray) -> Refit:
     return Refit(paired, z, jacobian(paired, z), float(residuals @ residuals), objective)
 
 
-def _polished(hypothesis: Hypothesis, z: FloatArray) -> Refit:
+def _polished(hypothesis: _H, z: FloatArray) -> Refit[_H]:
     weights, (low, high) = hypothesis.prior_weights, hypothesis.limits()
     z = np.clip(z, low, high)
     residuals = hypothesis.residuals(z)
