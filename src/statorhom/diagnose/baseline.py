@@ -97,7 +97,7 @@ def _with_step(
     study: StudyModel, z: np.ndarray, setup: StageSetup, tests: Sequence[MeasuredTest], settings: Settings
 ) -> tuple[StudyModel, np.ndarray, tuple[np.ndarray, ...]]:
     """One more step: its constants from the best of many starts; the other optima."""
-    places = _new_constants(study.constants, setup)
+    places = new_constants(study.constants, setup)
     trials = trials_around(z, places, settings.seed)
     snapshots = _materials(study, setup, trials)[:SNAPSHOTS]
     stage = stage_model(setup, tests, snapshots, settings.density)
@@ -124,7 +124,8 @@ def _frequencies(stage: StageModel, materials: Materials) -> dict[int, float]:
     return {i: m.frequency_hz for i, m in enumerate(stage.solve(materials).modes[:12])}
 
 
-def _new_constants(constants: Constants, setup: StageSetup) -> list[int]:
+def new_constants(constants: Constants, setup: StageSetup) -> list[int]:
+    """Places of a step's own material constants, those that are not fixed."""
     prefix = f"{setup.keys.name}:"
     return [
         i

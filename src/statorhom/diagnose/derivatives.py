@@ -35,11 +35,12 @@ EFFECT_STEP = 1e-2  # of internal coordinates
 def jacobian(h: AnyHypothesis, z: FloatArray) -> FloatArray:
     """Derivative of the residuals, (features, coordinates): by differences where nothing better is known."""
     start = h.features(z)
-    columns = [_difference(h, z, j, start) for j in range(len(z))]
+    columns = [difference(h, z, j, start) for j in range(len(z))]
     return np.array(columns).T.reshape(len(start), len(z))
 
 
-def _difference(h: AnyHypothesis, z: FloatArray, j: int, start: Sequence[Feature]) -> FloatArray:
+def difference(h: AnyHypothesis, z: FloatArray, j: int, start: Sequence[Feature]) -> FloatArray:
+    """One column of it; `start` are the features that are seen."""
     for sign in (1.0, -1.0):
         moved = z.copy()
         moved[j] += sign * EFFECT_STEP

@@ -10,7 +10,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from statorhom.diagnose.baseline import Baseline, baseline
+from statorhom.diagnose.approach import RING, Approach
+from statorhom.diagnose.baseline import Baseline
+from statorhom.diagnose.coupons.body_approach import BODY
 from statorhom.diagnose.decision import (
     OVER_OTHERS,
     Evidence,
@@ -32,10 +34,9 @@ from statorhom.diagnose.explanations import (
 from statorhom.diagnose.held_out import HeldOut, held_out
 from statorhom.diagnose.held_out_name import held_out_names, renames_alone
 from statorhom.diagnose.measured import MeasuredTest
-from statorhom.diagnose.mirrored import at_likelier_height
-from statorhom.diagnose.next_measurement import Choice, next_measurement
+from statorhom.diagnose.next_measurement import Choice
 from statorhom.diagnose.one_line_errors import one_line_errors
-from statorhom.diagnose.place_rows import angle_rows, machine_row, map_rows, opposite_rows, summaries
+from statorhom.diagnose.place_rows import summaries
 from statorhom.diagnose.report_rows import (
     as_declared,
     constant_rows,
@@ -46,9 +47,9 @@ from statorhom.diagnose.report_rows import (
 )
 from statorhom.diagnose.resampling import stability
 from statorhom.diagnose.scan import Scan, rescanned, scan
-from statorhom.diagnose.sharper import refined, sharpened
 from statorhom.diagnose.simpler import by_criterion, simpler_fits
-from statorhom.geometry.stator import StatorGeometry
+from statorhom.geometry.block import BlockGeometry
+from statorhom.geometry.tested_object import ObjectGeometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.settings import Settings
 from statorhom.physics.declared import DeclaredEffect
@@ -85,7 +86,7 @@ class Found:
 
 def diagnose(
     files: StudyFiles,
-    geometry: StatorGeometry,
+    geometry: ObjectGeometry,
     tests: Mapping[str, MeasuredTest],
     settings: Settings,
     announce: Announce = silent,
@@ -99,26 +100,30 @@ def diagnose(
     """
     began = time.perf_counter()
     with threadpool_limits(limits=1, user_api="blas"), one_line_errors(str(files.path)):
-        found = _find(files, geometry, tests, settings, announce)
+        approach = BODY if isinstance(geometry, BlockGeometry) else RING
+        found = _find(approach, files, geometry, tests, settings, announce)
         undecided = found.verdict == "ambiguous"
         choice = (
-            next_measurement(found.best, others(found.best, found.explanations)) if undecided else Choice()
+            approach.next_measurement(found.best, others(found.best, found.explanations))
+            if undecided
+            else Choice()
         )
-        diagnosis = _diagnosis(files, found, choice)
-        details = _details(files, found, choice, time.perf_counter() - began)
-        named = as_declared(found.best) if found.verdict == "named" else ()
+        diagnosis = _diagnosis(approach, files, found, choice)
+        details = _details(approach, files, found, choice, time.perf_counter() - began)
+        named = as_declared(found.best, approach.located) if found.verdict == "named" else ()
     return diagnosis, details, named
 
 
 def _find(
+    approach: Approach,
     files: StudyFiles,
-    geometry: StatorGeometry,
+    geometry: ObjectGeometry,
     tests: Mapping[str, MeasuredTest],
     settings: Settings,
     announce: Announce,
 ) -> Found:
     progress = announce("declared model", 1)
-    base = baseline(files, geometry, tests, settings)
+    base = approach.baseline(files, geometry, tests, settings)
     progress(1)
     candidates = all_candidates(files)
     counts = dict(Counter(c.effect for c in candidates))
@@ -128,7 +133,7 @@ def _find(
     progress = announce("explanations", 1)
     found = single_effects(base.free, signatures, [c for c in candidates if not c.parameters], counts)
     if found and found[0].adequacy < ADEQUATE:
-        found = refined(found, base.valleys, counts)
+        found = approach.refined(found, base.valleys, counts)
     if found and found[0].adequacy < ADEQUATE:
         found = _pairs(base, found, signatures, counts) + found
     progress(1)
@@ -136,7 +141,7 @@ def _find(
     best = found[0] if found else none
     if found:
         # reported numbers come from the explanation's own model, comparisons from the common one
-        best = at_likelier_height(replace(sharpened(best), log_evidence=best.log_evidence))
+        best = replace(approach.final(best), log_evidence=best.log_evidence)
     evidence = _evidence(base, best, none, found, signatures, settings.seed)
     return Found(decide(evidence), best, tuple(found), signatures, evidence, base)
 
@@ -147,7 +152,7 @@ def _pairs(
     """The best explanation with one more effect, the best first; none where modes that it did not see contradict."""
     first = found[0]
     left = rescanned(signatures, base.free, first.refit).worth_refitting(SECONDS, WORTH)
-    second = [s for s in left if s.candidate.effect not in first.effects]
+    second = [s for s in left if s.candidate.repeats or s.candidate.effect not in first.effects]
     pairs = with_second(first, second[:SECONDS], counts)
     pairs = [p for p in pairs if p.log_evidence > first.log_evidence + PAIR_GAIN]
     if not pairs:
@@ -191,7 +196,7 @@ def _evidence(
     )
 
 
-def _diagnosis(files: StudyFiles, found: Found, choice: Choice) -> Diagnosis:
+def _diagnosis(approach: Approach, files: StudyFiles, found: Found, choice: Choice) -> Diagnosis:
     base, best = found.base.refit, found.best
     chances = _probabilities(found)
     named = found.verdict == "named"
@@ -212,7 +217,9 @@ def _diagnosis(files: StudyFiles, found: Found, choice: Choice) -> Diagnosis:
         schema=1,
         study=files.study.name,
         verdict=found.verdict,
-        effects=effect_results(best, chances.get("+".join(best.effects), 0.0)) if named else (),
+        effects=effect_results(best, chances.get("+".join(best.effects), 0.0), approach.located)
+        if named
+        else (),
         alternatives=tuple(shown) if found.verdict != "none" else (),
         mismatch=mismatch(base) if found.verdict != "none" else None,
         fit=FitErrors(
@@ -240,7 +247,7 @@ def _probabilities(found: Found) -> dict[str, float]:
     return dict(sorted(((e, w / whole) for e, w in weights.items()), key=lambda p: -p[1]))
 
 
-def _details(files: StudyFiles, found: Found, choice: Choice, seconds: float) -> Details:
+def _details(approach: Approach, files: StudyFiles, found: Found, choice: Choice, seconds: float) -> Details:
     best, e = found.best, found.evidence
     effect = library()[best.effects[0]] if best.effects else None
     seen: dict[str, ScanRow] = {}
@@ -259,15 +266,12 @@ def _details(files: StudyFiles, found: Found, choice: Choice, seconds: float) ->
         confusions=() if effect is None else tuple((c.effect, c.separated_by) for c in effect.confused_with),
         features=feature_rows(found.base.refit, best.refit),
         scan=tuple(seen.values())[:20],
-        angles=angle_rows(found.base.refit, best),
         constants=constant_rows(found.base.refit, best.refit),
         evidence=tuple((x.candidates[0].label, x.log_evidence) for x in found.explanations),
         seconds=seconds,
         simpler=_simpler(found),
         options=choice.options,
-        machine=machine_row(files),
-        maps=() if found.verdict == "none" else map_rows(found.base.refit),
-        opposite=opposite_rows(best) if found.verdict == "named" else (),
+        **approach.pictures(files, found.base.refit, best, found.verdict == "named", found.verdict != "none"),
         summaries=summaries(tuple(dict.fromkeys(n for x in found.explanations for n in x.effects))),
     )
 

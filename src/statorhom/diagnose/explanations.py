@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Generic
 
 import numpy as np
 from scipy.special import logsumexp
@@ -13,7 +14,7 @@ from typing_extensions import TypeVar
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.mislabelled import worth_trying
-from statorhom.diagnose.refit import Refit, refit
+from statorhom.diagnose.refit import H, Refit, refit
 from statorhom.diagnose.scan import Scan, Signature
 from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
@@ -32,7 +33,7 @@ POOR = 3.0  # squared residual per feature above which another valley is looked 
 
 
 @dataclass(frozen=True, eq=False)
-class Explanation:
+class Explanation(Generic[H]):
     """One or more effects at their optimum.
 
     Parameters
@@ -43,7 +44,7 @@ class Explanation:
     """
 
     candidates: tuple[Candidate, ...]
-    refit: Refit
+    refit: Refit[H]
     log_evidence: float
 
     @property
@@ -79,9 +80,9 @@ class Explanation:
 
     @cached_property
     def _residuals(self) -> tuple[np.ndarray, np.ndarray]:
-        """Those that count, and those of loss factors: these scatter as they like, and would hide a frequency."""
+        """Those that count, and those of loss factors and shapes: many and uncertain, they would hide a frequency."""
         found = self.refit.hypothesis.features(self.refit.z)
-        lossy = np.array([f.kind == "loss" for f in found], dtype=bool)
+        lossy = np.array([f.kind in ("loss", "shape") for f in found], dtype=bool)
         residuals = np.array([f.residual for f in found])
         return residuals[~lossy], residuals[lossy]
 

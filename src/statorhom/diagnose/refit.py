@@ -117,6 +117,18 @@ def evaluated(hypothesis: _H, z: FloatArray) -> Refit[_H]:
     return Refit(paired, z, jacobian(paired, z), float(residuals @ residuals), objective)
 
 
+def refit_objective(hypothesis: AnyHypothesis, z: FloatArray) -> float:
+    """What a refit would make as small as it can, at a point.
+
+    Raises
+    ------
+    StatorhomError
+        If no body has these constants.
+    """
+    paired = hypothesis.paired(z)
+    return _objective(paired.residuals(z), z, paired.prior_weights) + paired.missed
+
+
 def _polished(hypothesis: _H, z: FloatArray) -> Refit[_H]:
     weights, (low, high) = hypothesis.prior_weights, hypothesis.limits()
     z = np.clip(z, low, high)

@@ -171,8 +171,9 @@ def _choices(study: ModelledStudy, parameter: EffectParameter) -> list[float]:
         count = max(4, int(np.ceil(ANGLES_PER_ORDER * max(highest, 2) * half / np.pi)))
         return [parameter.internal(half * k / count) for k in range(count)]
     if parameter.scale == "place":
+        span = parameter.upper - parameter.lower
         return [
-            parameter.internal(parameter.lower + h * (parameter.upper - parameter.lower)) for h in HEIGHTS
+            parameter.internal(v) for v in parameter.starts or [parameter.lower + h * span for h in HEIGHTS]
         ]
     return [parameter.internal(value) for value in parameter.starts]
 

@@ -35,7 +35,11 @@ class Effect(ABC):
 
     @abstractmethod
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
-        """All ways in which the effect may be present in a study; none where it is declared or cannot be."""
+        """All ways in which the effect may be present in a stator's study; none where it is declared or cannot be."""
+
+    def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:  # noqa: ARG002
+        """The same of a study of a plate, a beam or a wing; none where the effect is one of stators alone."""
+        return ()
 
     @abstractmethod
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:

@@ -8,6 +8,7 @@ from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.effect import Confusion, Effect
 from statorhom.physics.parameter import EffectParameter
+from statorhom.physics.plan import plan_of
 from statorhom.study.study import StudyFiles
 
 # keys of the geometry file by section, and the step from which on they matter
@@ -36,6 +37,17 @@ class WrongInput(Effect):
             for stage in files.study.stages
         ]
         return (*masses, *_dimensions(files))
+
+    def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        stage = files.study.stages[0]
+        masses = [_candidate(stage.name, "mass_kg", stage.mass_kg, (("input", "mass_kg"),))]
+        plan = plan_of(files)
+        sizes = {} if plan is None else plan.typed
+        kind = files.drawing.kind
+        return (
+            *masses,
+            *(_candidate(stage.name, k, v, (("input", k), ("section", kind))) for k, v in sizes.items()),
+        )
 
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
         key = candidate.chosen
