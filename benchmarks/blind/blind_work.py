@@ -13,10 +13,10 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import asdict, dataclass
-from functools import cache
-from itertools import repeat
+from functools import cache, partial
 from pathlib import Path
 
 from blind_cases import BlindCase
@@ -27,7 +27,6 @@ from statorhom.conceal.folder import TRUTH
 from statorhom.errors import StatorhomError
 from statorhom.study.atomic import write_text
 
-RENEWED = 4  # cases that one process makes
 PATIENCE_S = 1800.0  # a diagnosis that takes longer counts as failed
 
 
@@ -126,8 +125,15 @@ def each(
     jobs: int,
 ) -> None:
     """Do something with all cases, some at a time."""
-    # a process is renewed now and then: what solvers leave behind adds up to gigabytes
-    spawn = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(jobs, mp_context=spawn, max_tasks_per_child=RENEWED) as pool:
-        for number, fault in enumerate(pool.map(function, repeat(work), cases), start=1):
+    with ThreadPoolExecutor(jobs) as pool:
+        for number, fault in enumerate(pool.map(partial(_apart, function, work), cases), start=1):
             print(f"{what} {number}/{len(cases)}{f': {fault}' if fault else ''}", flush=True)
+
+
+def _apart(function: Callable[[Work, BlindCase], str | None], work: Work, case: BlindCase) -> str | None:
+    """In a process of its own: what solvers leave behind adds up to gigabytes."""
+    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
+        try:
+            return pool.submit(function, work, case).result()
+        except BrokenProcessPool:
+            return f"{case.name}: its process was killed; is there enough memory?"

@@ -10,7 +10,7 @@ import pytest
 from small_stators import MATERIALS, stator_mesh
 
 from statorhom.diagnose.broken_response import responses
-from statorhom.diagnose.dimension_response import _shifts, changed_geometry, step_of
+from statorhom.diagnose.dimension_response import _shifts, changed_geometry, dimension_shift, step_of
 from statorhom.diagnose.features import loading, shift_features
 from statorhom.diagnose.measured import PlaneShifts
 from statorhom.diagnose.prediction import material_vector, predicted
@@ -27,7 +27,7 @@ from statorhom.model.affine import Material, Materials, assemble
 from statorhom.model.broken.attachments import lump
 from statorhom.model.broken.basis import symmetric_basis
 from statorhom.model.broken.solve import solve_broken
-from statorhom.model.convergence import mode_keys
+from statorhom.model.convergence import ModeKey, mode_keys
 from statorhom.model.free_modes import solve_free
 from statorhom.model.supported_modes import solve_supported
 from statorhom.model.supports import support_on
@@ -257,32 +257,53 @@ def test_a_modulus_that_follows_the_frequency(files: StudyFiles, wound: StageMod
         assert abs(np.log(f / wound.reference_keys[key].frequency_hz)) > 4e-3
 
 
-@pytest.mark.parametrize("name", ["core.yoke_thickness_mm", "core.length_mm"])
+TYPED_MM = {"core.yoke_thickness_mm": 9.0, "core.length_mm": 80.0}
+
+
+@pytest.mark.parametrize("name", TYPED_MM)
 def test_another_dimension(name: str, files: StudyFiles) -> None:
+    study, stage = stack_alone(files)
+    step = 0.01
+    logs = [log_of_changed(study, stage, name, sign * step) for sign in (-1, 1)]
+    low, high = (_shifts(study, stage, name, sign * step) for sign in (-1, 1))
+    # the Ritz values' own errors, of second order, cancel
+    for key in KEYS:
+        assert high[key] - low[key] == pytest.approx(logs[1][key] - logs[0][key], rel=0.05, abs=1e-4)
+
+
+@pytest.mark.parametrize("step", [-0.05, 0.012, 0.06])
+def test_a_dimension_that_is_far_off(step: float, files: StudyFiles) -> None:
+    name = "core.yoke_thickness_mm"
+    study, stage = stack_alone(files)
+    before, after = (log_of_changed(study, stage, name, t) for t in (0.0, step))
+    dimension = {name: TYPED_MM[name] * float(np.exp(step))}
+    for key in KEYS:
+        shift = after[key] - before[key]
+        assert abs(shift) > 5e-3
+        assert dimension_shift(study, stage, dimension, key) == pytest.approx(shift, rel=0.02, abs=1e-4)
+
+
+def stack_alone(files: StudyFiles) -> tuple[StudyModel, StageModel]:
     geometry = stator_geometry(files.geometry, files.geometry_path)
     setup = stage_setup(files, geometry, 0)
     assert setup.step is not None
     model = assemble(mesh_step(setup.step, uniform(1)))
     materials = {"lamination": MATERIALS["lamination"]}
-    stage = StageModel(
-        setup, (), ring_basis(model, [materials], TOP, range(4)), materials, ModelError(), uniform(1)
-    )
-    study = StudyModel(files, geometry, None, (stage,))  # type: ignore[arg-type]
-    step = 0.01
-    typed = 9.0 if "yoke" in name else 80.0
-    logs = []
-    for sign in (-1, 1):
-        value = typed * float(np.exp(sign * step))
-        changed = step_of(study, stage, changed_geometry(study, {name: value}))
-        factor = setup.step.exact_volumes()["lamination"] / changed.exact_volumes()["lamination"]
-        one = materials["lamination"]
-        lighter = {"lamination": Material(one.hooke, factor * one.density)}
-        full = mode_keys(solve_free(assemble(mesh_step(changed, uniform(1))), lighter, TOP, range(4)).modes)
-        logs.append({key: np.log(full[key].frequency_hz) for key in KEYS})
-    low, high = (_shifts(study, stage, name, sign * step) for sign in (-1, 1))
-    # the Ritz values' own errors, of second order, cancel
-    for key in KEYS:
-        assert high[key] - low[key] == pytest.approx(logs[1][key] - logs[0][key], rel=0.05, abs=1e-4)
+    ring = ring_basis(model, [materials], TOP, range(4))
+    stage = StageModel(setup, (), ring, materials, ModelError(), uniform(1))
+    return StudyModel(files, geometry, None, (stage,)), stage  # type: ignore[arg-type]
+
+
+def log_of_changed(study: StudyModel, stage: StageModel, name: str, step: float) -> dict[ModeKey, float]:
+    """ln f of the machine with another dimension, solved on its own mesh, its weight as before."""
+    value = TYPED_MM[name] * float(np.exp(step))
+    changed = step_of(study, stage, changed_geometry(study, {name: value}))
+    assert stage.setup.step is not None
+    factor = stage.setup.step.exact_volumes()["lamination"] / changed.exact_volumes()["lamination"]
+    one = stage.reference["lamination"]
+    lighter = {"lamination": Material(one.hooke, factor * one.density)}
+    full = mode_keys(solve_free(assemble(mesh_step(changed, uniform(1))), lighter, TOP, range(4)).modes)
+    return {key: float(np.log(full[key].frequency_hz)) for key in KEYS}
 
 
 def test_another_mass_is_another_density(stack: StageModel) -> None:

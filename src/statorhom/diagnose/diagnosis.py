@@ -24,11 +24,9 @@ from statorhom.diagnose.decision import (
 )
 from statorhom.diagnose.explanations import (
     ADEQUATE,
-    WORTH,
     Explanation,
     effect_evidence,
     nothing,
-    single_effects,
     with_second,
 )
 from statorhom.diagnose.held_out import HeldOut, held_out
@@ -48,6 +46,7 @@ from statorhom.diagnose.report_rows import (
 from statorhom.diagnose.resampling import stability
 from statorhom.diagnose.scan import Scan, rescanned, scan
 from statorhom.diagnose.simpler import by_criterion, simpler_fits
+from statorhom.diagnose.single_effects import WORTH, single_effects
 from statorhom.geometry.block import BlockGeometry
 from statorhom.geometry.tested_object import ObjectGeometry
 from statorhom.identify.announce import Announce, silent
@@ -67,7 +66,6 @@ from statorhom.study.study import StudyFiles
 
 COMPARED = 4  # explanations that resamplings compare
 SECONDS = 5  # effects that are tried beside the first
-PAIR_GAIN = 5.0  # log evidence that a second effect must add
 LEAST_PROBABILITY = 0.005
 ALTERNATIVES = 2  # that an ambiguous answer names at least
 
@@ -154,7 +152,6 @@ def _pairs(
     left = rescanned(signatures, base.free, first.refit).worth_refitting(SECONDS, WORTH)
     second = [s for s in left if s.candidate.repeats or s.candidate.effect not in first.effects]
     pairs = with_second(first, second[:SECONDS], counts)
-    pairs = [p for p in pairs if p.log_evidence > first.log_evidence + PAIR_GAIN]
     if not pairs:
         return []
     # both effects have to hold: the second one against the first alone

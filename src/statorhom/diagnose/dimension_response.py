@@ -1,7 +1,8 @@
-"""What another dimension does to the frequencies: the modes' Ritz values on the mesh of the changed machine.
+"""What another dimension does to the frequencies.
 
 The mesh of a slightly changed machine has the same cells, so that the modes of the declared one are good trial vectors
-on it; the error of the Ritz values is of second order. The weights stay as typed: densities follow the volumes.
+on it: their Ritz values give the slopes. How a frequency goes on beyond a small change is solved on the changed mesh,
+when that is first asked for. The weights stay as typed: densities follow the volumes.
 """
 
 from __future__ import annotations
@@ -18,11 +19,15 @@ from statorhom.diagnose.study_model import StudyModel
 from statorhom.errors import GeometryError, MassError
 from statorhom.geometry.stator import StatorGeometry, StepGeometry, stator_geometry
 from statorhom.mesh.extrude import mesh_step
-from statorhom.model.affine import Material, assemble
-from statorhom.model.convergence import ModeKey
+from statorhom.model.affine import AffineModel, Material, Materials, assemble
+from statorhom.model.convergence import ModeKey, mode_keys
+from statorhom.model.free_modes import problem_at
 
-STEP = 0.02  # of ln(dimension), to each side; between and beyond a parabola
-_NONE: dict[ModeKey, tuple[float, float]] = {}
+STEP = 0.004  # of ln(dimension), to each side, for the slopes
+FAR = 0.03  # of ln(dimension), to each side: changed machines that are solved, with a cubic through them
+NEAR = 0.008  # of ln(dimension): below, a slope is enough
+MOST = 6  # modes of a harmonic problem that are looked for
+JUMP = 0.05  # of ln f: farther from its slope a mode is another one
 
 
 def changed_geometry(study: StudyModel, dimensions: Mapping[str, float]) -> StatorGeometry:
@@ -58,40 +63,70 @@ def dimension_shift(
     """Change of ln f of a mode by true dimensions ("section.key" → value)."""
     total = 0.0
     for name, value in dimensions.items():
-        slope, curvature = _parabola(study, stage, name).get(key, (0.0, 0.0))
         t = float(np.log(value / typed(study, name)))
-        total += slope * t + curvature * t**2
+        total += _slopes(study, stage, name).get(key, 0.0) * t
+        if abs(t) > NEAR:
+            square, cube = _bends(study, stage, name).get(key, (0.0, 0.0))
+            total += square * t**2 + cube * t**3
     return total
 
 
 @lru_cache(maxsize=256)
-def _parabola(study: StudyModel, stage: StageModel, name: str) -> Mapping[ModeKey, tuple[float, float]]:
+def _slopes(study: StudyModel, stage: StageModel, name: str) -> Mapping[ModeKey, float]:
     try:
+        # the Ritz values' own errors, of second order, cancel
         low, high = (_shifts(study, stage, name, sign * STEP) for sign in (-1, 1))
     except (GeometryError, MassError):
-        return _NONE
-    return {
-        key: ((high[key] - low[key]) / (2 * STEP), (high[key] + low[key]) / (2 * STEP**2))
-        for key in low.keys() & high.keys()
-    }
+        return {}
+    return {key: (high[key] - low[key]) / (2 * STEP) for key in low.keys() & high.keys()}
 
 
-def _shifts(study: StudyModel, stage: StageModel, name: str, log_change: float) -> dict[ModeKey, float]:
+@lru_cache(maxsize=256)
+def _bends(study: StudyModel, stage: StageModel, name: str) -> Mapping[ModeKey, tuple[float, float]]:
+    """Coefficients of the square and the cube of ln(dimension) in ln f."""
+    slopes = _slopes(study, stage, name)
+    try:
+        low, high = (_solved(study, stage, name, sign * FAR) for sign in (-1, 1))
+    except (GeometryError, MassError):
+        return {}
+    found = {}
+    for key in slopes.keys() & low.keys() & high.keys():
+        rest = [shift - slopes[key] * t for shift, t in ((low[key], -FAR), (high[key], FAR))]
+        if max(map(abs, rest)) < JUMP:
+            found[key] = (sum(rest) / (2 * FAR**2), (rest[1] - rest[0]) / (2 * FAR**3))
+    return found
+
+
+def _solved(study: StudyModel, stage: StageModel, name: str, log_change: float) -> dict[ModeKey, float]:
+    """Change of ln f on the changed mesh."""
+    model, materials = _changed(study, stage, name, log_change)
+    after = mode_keys(problem_at(model, materials).solve(stage.ring.highest_hz, stage.orders, MOST).modes)
+    before = stage.reference_keys
+    return {k: float(np.log(after[k].frequency_hz / before[k].frequency_hz)) for k in before.keys() & after}
+
+
+def _changed(
+    study: StudyModel, stage: StageModel, name: str, log_change: float
+) -> tuple[AffineModel, Materials]:
+    """The mesh of the changed machine, and the reference's materials at the densities that it has."""
     value = typed(study, name) * float(np.exp(log_change))
     step = step_of(study, stage, changed_geometry(study, {name: value}))
-    mesh = mesh_step(step, stage.density)
-    if mesh.nodes.shape != stage.model.mesh.nodes.shape:
-        return {}
     masses = {s.name: s.mass_kg for s in study.files.study.stages}
-    volumes = step.exact_volumes()
-    density = stage_densities(study.files, masses, stage.setup.index, volumes)
+    density = stage_densities(study.files, masses, stage.setup.index, step.exact_volumes())
     before = stage_densities(study.files, masses, stage.setup.index, study.volumes(stage.setup))
     materials = {}
     for region, material in stage.reference.items():
         weighed = "winding" if region == "overhang" else region
         factor = density.get(weighed, 1.0) / before.get(weighed, 1.0)
         materials[region] = Material(material.hooke, material.density * factor)
-    model = assemble(mesh)
+    return assemble(mesh_step(step, stage.density)), materials
+
+
+def _shifts(study: StudyModel, stage: StageModel, name: str, log_change: float) -> dict[ModeKey, float]:
+    """Change of the Ritz values' ln f; none where the changed mesh has other cells."""
+    model, materials = _changed(study, stage, name, log_change)
+    if model.mesh.nodes.shape != stage.model.mesh.nodes.shape:
+        return {}
     K, M = model.stiffness_matrix(materials), model.mass_matrix(materials)
     found = {}
     solved = stage.solve(stage.reference)

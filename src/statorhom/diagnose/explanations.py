@@ -1,4 +1,4 @@
-"""Explanations of the misfit: the best candidates of every effect refitted, with their evidence."""
+"""Explanations of the misfit: effects at their optimum, with their evidence."""
 
 from __future__ import annotations
 
@@ -13,23 +13,18 @@ from scipy.stats import chi2
 from typing_extensions import TypeVar
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
-from statorhom.diagnose.mislabelled import worth_trying
 from statorhom.diagnose.refit import H, Refit, refit
-from statorhom.diagnose.scan import Scan, Signature
+from statorhom.diagnose.scan import Signature
 from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
 
 _H = TypeVar("_H", bound=AnyHypothesis)
 
 COARSE = 0.03
-STARTS = 2  # of one candidate
-WORTH = 2.0  # gain of the scan below which an effect is not refitted
-MOST = 12  # candidates that are refitted
-RELABELLED = 4
 ADEQUATE = 0.01  # chance of a misfit above which nothing is left to explain
 ROWS = 8  # of which one may be grossly wrong
 DRAWS = 4000
-POOR = 3.0  # squared residual per feature above which another valley is looked for
+PAIR_GAIN = 5.0  # log evidence that a second effect must add
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,47 +87,18 @@ def nothing(base: Refit) -> Explanation:
     return Explanation((), base, base.log_evidence)
 
 
-def single_effects(
-    base: Refit, found: Scan, discrete: Sequence[Candidate], counts: dict[str, int]
-) -> list[Explanation]:
-    """Refits of the most promising candidates of every effect, the best of each effect first in its list.
-
-    Parameters
-    ----------
-    base : the declared model's optimum.
-    found : the scan.
-    discrete : candidates without parameters.
-    counts : effect → number of its candidates, over which its prior is spread.
-    """
-    explanations: list[Explanation] = []
-    for signature in found.worth_refitting(MOST, WORTH, nothing(base).adequacy < ADEQUATE):
-        if signature.gain < WORTH and _solved(explanations):
-            continue  # it promises nothing, and nothing is left to explain
-        best = _best_refit(base, _starts_of(found, signature), _solved(explanations))
-        if best is not None:
-            explanations.append(explained(best, counts))
-    for candidate in worth_trying(base, discrete)[:RELABELLED]:
-        best = _best_refit(base, [(candidate, np.empty(0))], _solved(explanations))
-        if best is not None:
-            explanations.append(explained(best, counts))
-    return sorted(explanations, key=lambda e: -e.log_evidence)
-
-
-def _solved(explanations: Sequence[Explanation]) -> bool:
-    """Whether one of them leaves nothing to explain: others then need not be sought in every valley."""
-    return any(e.adequacy > ADEQUATE for e in explanations)
-
-
 def with_second(first: Explanation, others: Sequence[Signature], counts: dict[str, int]) -> list[Explanation]:
-    """The first explanation and one more effect."""
+    """The first explanation and one more effect, where that adds enough."""
     found = []
+    worth = first.refit.objective - 2 * PAIR_GAIN
     for signature in others:
         start = np.r_[first.refit.z, signature.start]
         hypothesis = blank(first.refit.hypothesis, (*first.candidates, signature.candidate))
-        best = refitted(hypothesis, start)
+        best = refitted(hypothesis, start, worth)
         if best is not None:
             found.append(explained(best, counts))
-    return sorted(found, key=lambda e: -e.log_evidence)
+    enough = [e for e in found if e.log_evidence > first.log_evidence + PAIR_GAIN]
+    return sorted(enough, key=lambda e: -e.log_evidence)
 
 
 def explained(best: Refit, counts: dict[str, int]) -> Explanation:
@@ -142,43 +108,34 @@ def explained(best: Refit, counts: dict[str, int]) -> Explanation:
     return Explanation(candidates, best, best.log_evidence + prior)
 
 
-def _starts_of(found: Scan, signature: Signature) -> list[tuple[Candidate, np.ndarray]]:
-    """The best starts of a candidate that are not neighbours, and those of its other magnitudes."""
-    own = [s for s in found.signatures if s.candidate.label == signature.candidate.label]
-    chosen: list[Signature] = []
-    for one in own:
-        if all(abs(float(one.change @ other.change)) < 0.9 for other in chosen):
-            chosen.append(one)
-    return [(s.candidate, s.start) for s in chosen[:STARTS]]
-
-
-def _best_refit(base: Refit, places: Sequence[tuple[Candidate, np.ndarray]], solved: bool) -> Refit | None:
-    found: list[Refit] = []
-    for candidate, start in places:
-        z = np.r_[base.z, start]
-        hypothesis = blank(base.hypothesis, (candidate,))
-        best = refitted(hypothesis, z)
-        if not solved and (best is None or best.misfit > POOR * len(best.jacobian)):
-            # a wide valley first: partners may change on the way
-            rough = refitted(replace(hypothesis, discrepancy=COARSE), z)
-            sharp = None if rough is None else refitted(hypothesis, rough.z)
-            best = min((r for r in (best, sharp) if r), key=lambda r: r.objective, default=None)
-        if best is not None:
-            found.append(best)
-    return min(found, key=lambda r: r.objective, default=None)
-
-
 def blank(hypothesis: _H, candidates: tuple[Candidate, ...]) -> _H:
     """The same with other effects, and modes to be paired anew."""
     return replace(hypothesis, candidates=candidates, held=None, missed=0.0)
 
 
-def refitted(hypothesis: _H, z: np.ndarray) -> Refit[_H] | None:
-    """The nearest optimum; None where no stator has the constants of the start."""
+def refitted(hypothesis: _H, z: np.ndarray, worth: float = np.inf) -> Refit[_H] | None:
+    """The nearest optimum; None where no body has the constants of the start.
+
+    Parameters
+    ----------
+    hypothesis, z : what, and from where.
+    worth : objective from which on a result matters to nobody (`statorhom.diagnose.refit.refit`).
+    """
     try:
-        return refit(hypothesis, z)
+        return refit(hypothesis, z, worth=worth)
     except (StatorhomError, KeyError):
         return None
+
+
+def widened(hypothesis: _H, z: np.ndarray) -> Refit[_H] | None:
+    """The optimum in wide valleys, seen by frequencies alone."""
+    return refitted(replace(hypothesis, held=None, discrepancy=COARSE), z)
+
+
+def through_wide_valleys(hypothesis: _H, z: np.ndarray, rough: Refit[_H] | None = None) -> Refit[_H] | None:
+    """The optimum next to that in wide valleys, which may be known: partners may change on the way."""
+    rough = rough or widened(hypothesis, z)
+    return None if rough is None else refitted(replace(hypothesis, held=None), rough.z)
 
 
 def effect_evidence(explanations: Sequence[Explanation]) -> dict[tuple[str, ...], float]:

@@ -17,6 +17,7 @@ from statorhom.errors import StatorhomError
 FloatArray = npt.NDArray[np.float64]
 ROUNDS = 2  # of pairing anew
 ITERATIONS = 12
+PATIENCE = 2  # steps in a row that promise too little
 SETTLED = 0.05  # decrease of the objective that no longer matters
 LARGEST_STEP = 2.0  # in prior standard deviations
 UNIFORM = 2 * np.pi / 12  # precision of a normal density that is as high as the uniform one
@@ -81,8 +82,15 @@ def log_volume(information: FloatArray, weights: FloatArray) -> float:
     return -0.5 * float(logdet) + 0.5 * float(uniform.sum()) * float(np.log(UNIFORM))
 
 
-def refit(hypothesis: _H, start: FloatArray, rounds: int = ROUNDS) -> Refit[_H]:
+def refit(hypothesis: _H, start: FloatArray, rounds: int = ROUNDS, worth: float = np.inf) -> Refit[_H]:
     """The nearest optimum.
+
+    Parameters
+    ----------
+    hypothesis, start : what, and from where.
+    rounds : of pairing anew.
+    worth : objective above which an optimum matters to nobody: what promises none below it, to second order and several
+        times in a row, is left where it stands.
 
     Raises
     ------
@@ -93,7 +101,7 @@ def refit(hypothesis: _H, start: FloatArray, rounds: int = ROUNDS) -> Refit[_H]:
     best: Refit[_H] | None = None
     for _ in range(rounds):
         paired = hypothesis.paired(z)
-        found = _polished(paired, z)
+        found = _polished(paired, z, worth)
         changed = best is None or found.hypothesis.held != best.hypothesis.held
         if best is None or found.objective < best.objective - SETTLED or changed:
             best, z = found, found.z
@@ -129,16 +137,22 @@ def refit_objective(hypothesis: AnyHypothesis, z: FloatArray) -> float:
     return _objective(paired.residuals(z), z, paired.prior_weights) + paired.missed
 
 
-def _polished(hypothesis: _H, z: FloatArray) -> Refit[_H]:
+def _polished(hypothesis: _H, z: FloatArray, worth: float = np.inf) -> Refit[_H]:
     weights, (low, high) = hypothesis.prior_weights, hypothesis.limits()
     z = np.clip(z, low, high)
     residuals = hypothesis.residuals(z)
     objective = _objective(residuals, z, weights)
-    damping = 1e-3
+    damping, vain = 1e-3, 0
     J = jacobian(hypothesis, z)
     for _ in range(ITERATIONS):
         gradient = J.T @ residuals + weights * z
         H = J.T @ J + np.diag(weights)
+        promised = (
+            objective + hypothesis.missed - gradient @ np.linalg.solve(H + 1e-9 * np.eye(len(H)), gradient)
+        )
+        vain = vain + 1 if promised > worth else 0
+        if vain == PATIENCE:
+            break
         improved = False
         for _ in range(6):
             step = -np.linalg.solve(H + damping * np.diag(np.diag(H) + 1e-6), gradient)

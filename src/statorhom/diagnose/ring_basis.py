@@ -12,16 +12,16 @@ import scipy.sparse as sp
 from statorhom.diagnose.small_pairs import small_pairs
 from statorhom.model.affine import AffineModel, Materials, hooke_coefficients
 from statorhom.model.blas_threads import one_blas_thread
-from statorhom.model.eigen import modes_below
+from statorhom.model.cyclic.half_pitch import half_pitches
+from statorhom.model.cyclic.modes import modes_of
 from statorhom.model.harmonic import Harmonic, harmonic_spaces
+from statorhom.model.pitch_parts import pitch_parts
 from statorhom.model.radial_profile import RadialProfile, node_planes, radial_profile
 from statorhom.model.stator_mode import StatorMode, name_modes
 
 DEPENDENT = 1e-7  # part of the norm by which a snapshot must differ from the others
 REACH = 1.15  # snapshots reach this much higher than the band
 MOST = 10  # modes of one problem per snapshot
-FIRST_GUESS = 4
-LOOSE = 1e-9  # relative error of a snapshot's eigenvalues: its modes only span
 
 Gradient = Mapping[str, tuple[np.ndarray, float]]
 
@@ -172,11 +172,14 @@ class RingBasis:
         bonded = [(self.model.stiffness_matrix(m), self.model.mass_matrix(m)) for m in snapshots]
         matrices = [(sp.csr_array(K + joint), M) for K, M in bonded for joint in joints] or bonded
         terms = affine_terms(self.model)
+        top = REACH * self.highest_hz
+        solved = _solved(self.model, [p.space for p in self.problems], matrices, top)
+        energy = _energy(matrices, top)
         problems = []
         with one_blas_thread():
-            for problem in self.problems:
-                solved, unit = _solved(problem.space, matrices, REACH * self.highest_hz)
-                problems.append(grown(problem, independent(problem.basis, solved, unit), terms, profile))
+            for problem, vectors in zip(self.problems, solved, strict=True):
+                added = independent(problem.basis, vectors, sp.csr_array(problem.space.project(energy)))
+                problems.append(grown(problem, added, terms, profile))
         return replace(self, problems=tuple(problems))
 
 
@@ -203,30 +206,26 @@ def ring_basis(
 
 
 def _solved(
-    space: Harmonic, matrices: Sequence[tuple[sp.csr_array, sp.csr_array]], highest_hz: float
-) -> tuple[np.ndarray, sp.csr_array]:
-    """Modes (m, j) of all snapshots, and the energy K / λ + M that they have in the mean, λ the band's end.
+    model: AffineModel,
+    spaces: Sequence[Harmonic],
+    matrices: Sequence[tuple[sp.csr_array, sp.csr_array]],
+    highest_hz: float,
+) -> list[np.ndarray]:
+    """Modes (m, j) of all snapshots, per problem."""
+    parts = pitch_parts(model.mesh)
+    found = [modes_of(half_pitches(parts, K, M), spaces, highest_hz, MOST) for K, M in matrices]
+    return [np.hstack([pairs[number][1] for pairs in found]) for number in range(len(spaces))]
+
+
+def _energy(matrices: Sequence[tuple[sp.csr_array, sp.csr_array]], highest_hz: float) -> sp.csr_array:
+    """Energy K / λ + M of the half pitch that the snapshots have in the mean, λ the band's end.
 
     It is the energy that tells what a basis lacks: where a material hardly changes its volume, a small difference in
     shape is a large one in stiffness.
     """
-    found: list[np.ndarray] = []
     top = (2 * np.pi * highest_hz) ** 2
-    energy = sp.csr_array((space.size, space.size))
-    masses: list[tuple[np.ndarray, sp.csr_array]] = []
-    expected = FIRST_GUESS
-    for K, M in matrices:
-        # snapshots mostly have the weights in common
-        mass = next((own for data, own in masses if np.array_equal(data, M.data)), None)
-        if mass is None:
-            mass = sp.csr_array(space.project(M))
-            masses.append((M.data, mass))
-        stiffness = sp.csr_array(space.project(K))
-        _, vectors = modes_below(stiffness, mass, highest_hz, expected, most=MOST, tolerance=LOOSE)
-        found.append(vectors)
-        energy = energy + (stiffness / top + mass) / len(matrices)
-        expected = min(max(FIRST_GUESS, vectors.shape[1] + 1), MOST)
-    return np.hstack(found), sp.csr_array(energy)
+    whole = sum((K / top + M for K, M in matrices[1:]), start=matrices[0][0] / top + matrices[0][1])
+    return sp.csr_array(whole / len(matrices))
 
 
 def independent(basis: np.ndarray, added: np.ndarray, norm: sp.csr_array) -> np.ndarray:

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from statorhom.diagnose.explanations import ADEQUATE, COARSE, Explanation, explained, refitted
+from statorhom.diagnose.explanations import ADEQUATE, Explanation, explained, refitted, through_wide_valleys
 from statorhom.diagnose.prediction import acted_materials
 from statorhom.diagnose.stage_model import mesh_error, with_reference
 
@@ -62,9 +62,7 @@ def _deepest(explanation: Explanation, valleys: Sequence[np.ndarray], counts: di
     for start in starts:
         if explained(best, counts).adequacy > ADEQUATE:
             break
-        # wide valleys first: partners may change on the way
-        rough = refitted(replace(best.hypothesis, held=None, discrepancy=COARSE), start)
-        again = None if rough is None else refitted(replace(best.hypothesis, held=None), rough.z)
+        again = through_wide_valleys(best.hypothesis, start)
         if again is not None and again.objective < best.objective:
             best = again
     # models cost more than refits: another one only where the valley is another

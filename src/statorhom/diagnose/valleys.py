@@ -18,6 +18,7 @@ _H = TypeVar("_H", bound=AnyHypothesis)
 # points that are tried, refitted in wide valleys, and sharpened
 TRIALS, STARTS, SHARPENED = 200, 16, 3
 APART = 1.0  # prior standard deviations between starts
+BEHIND = 20.0  # of the objective in wide valleys: what stays so far behind is no other optimum worth keeping
 COARSE = 0.03  # discrepancy with which valleys are found
 SPREAD = 1.1  # of the prior: how far materials to try lie apart
 
@@ -56,7 +57,11 @@ def optima(blank: _H, trials: Sequence[np.ndarray]) -> list[Refit[_H]]:
         except StatorhomError:
             continue
     scored.sort(key=lambda pair: pair[0])
-    wide = [r for z in _apart([z for _, z in scored]) if (r := _refitted(coarse, z)) is not None]
+    wide: list[Refit[_H]] = []
+    for z in _apart([z for _, z in scored]):
+        # what promises nothing beside the best so far is not followed
+        worth = min((r.objective for r in wide), default=np.inf) + BEHIND
+        wide += [r] if (r := _refitted(coarse, z, worth)) is not None else []
     wide.sort(key=lambda r: r.objective)
     found = [r for w in wide[:SHARPENED] if (r := _refitted(blank, w.z)) is not None]
     if not found:
@@ -78,8 +83,8 @@ def _apart(points: Sequence[np.ndarray]) -> list[np.ndarray]:
     return chosen
 
 
-def _refitted(hypothesis: _H, z: np.ndarray) -> Refit[_H] | None:
+def _refitted(hypothesis: _H, z: np.ndarray, worth: float = np.inf) -> Refit[_H] | None:
     try:
-        return refit(hypothesis, z)
+        return refit(hypothesis, z, worth=worth)
     except StatorhomError:
         return None

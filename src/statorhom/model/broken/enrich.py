@@ -30,7 +30,10 @@ def enriched(
     values, x : its eigenvalues (rad²/s²) and coordinates (n, modes).
     least : relative frequency error below which a direction is left out.
     """
-    forces = _piece_forces(basis, coupled, values, x)
+    forces = {
+        side: np.fft.rfft(on_copies, axis=0)
+        for side, on_copies in _piece_forces(basis, coupled, values, x).items()
+    }
     problems = []
     for number, problem in enumerate(basis.problems):
         # where pieces are softened the one is right inside and the other outside of them
@@ -120,10 +123,9 @@ def _applied(
 
 
 def _folded(problem: ProblemBasis, forces: Mapping[bool, np.ndarray], sine: bool) -> np.ndarray:
-    """Forces on all half pitches in a problem's coordinates."""
+    """Forces on all half pitches, by circumferential order, in a problem's coordinates."""
     space = problem.sector.space
-    turn = np.exp(-2j * np.pi * space.order / space.slots * np.arange(space.slots))
-    straight, mirrored = (np.tensordot(turn, forces[side], axes=1) for side in (False, True))
+    straight, mirrored = (forces[side][space.order] for side in (False, True))
     if sine:
         return np.asarray(
             space.imaginary.T @ (straight.real - mirrored.real)

@@ -1,0 +1,170 @@
+"""The best explanation by every effect: what is cheap first, the rest only as far as it can still win.
+
+What breaks no symmetry is refitted in a fraction of a second, a contact takes half a minute. Where the declared model
+is far off, the cheap candidates go first in the order in which wide valleys like them. As soon as one leaves nothing
+to explain, the others are followed only while they promise to come near it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from statorhom.diagnose.explanations import (
+    ADEQUATE,
+    Explanation,
+    blank,
+    explained,
+    nothing,
+    refitted,
+    through_wide_valleys,
+    widened,
+)
+from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.diagnose.mislabelled import worth_trying
+from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.scan import Scan, Signature
+from statorhom.physics.candidate import Candidate
+
+STARTS = 2  # of one candidate
+WORTH = 2.0  # gain of the scan below which an effect is not refitted
+MOST = 12  # candidates that are refitted
+RELABELLED = 4
+POOR = 3.0  # squared residual per feature above which another valley is looked for
+CHEAP, DEAR = 0, 2  # prices
+NEAR = 60.0  # of the objective: what does not come so near to an adequate explanation is given up
+
+
+@dataclass(frozen=True, eq=False)
+class _Start:
+    """Where a candidate's refit begins.
+
+    Parameters
+    ----------
+    hypothesis : the declared model and the candidate.
+    z : all coordinates.
+    rough : the optimum in wide valleys, where that is known.
+    """
+
+    hypothesis: Hypothesis
+    z: np.ndarray
+    rough: Refit | None = None
+
+
+def single_effects(
+    base: Refit, found: Scan, discrete: Sequence[Candidate], counts: dict[str, int]
+) -> list[Explanation]:
+    """Refits of the most promising candidates of every effect, the best first.
+
+    Parameters
+    ----------
+    base : the declared model's optimum.
+    found : the scan.
+    discrete : candidates without parameters.
+    counts : effect → number of its candidates, over which its prior is spread.
+    """
+    explanations: list[Explanation] = []
+    for gain, starts in _in_order(base, found):
+        worth = _worth(explanations)
+        if gain < WORTH and np.isfinite(worth):
+            continue  # it promises nothing, and nothing is left to explain
+        best = _best_refit(starts, worth, far=is_poor(base))
+        if best is not None:
+            explanations.append(explained(best, counts))
+    for candidate in worth_trying(base, discrete)[:RELABELLED]:
+        best = _best_refit([_start(base, candidate, np.empty(0))], _worth(explanations), far=False)
+        if best is not None:
+            explanations.append(explained(best, counts))
+    return sorted(explanations, key=lambda e: -e.log_evidence)
+
+
+def is_poor(found: Refit) -> bool:
+    """Whether another valley should be looked for."""
+    return found.misfit > POOR * len(found.jacobian)
+
+
+def _worth(explanations: Sequence[Explanation]) -> float:
+    """Objective above which a further explanation is no rival; infinite while nothing explains the misfit."""
+    adequate = [e.refit.objective for e in explanations if e.adequacy > ADEQUATE]
+    return min(adequate, default=np.inf) + NEAR
+
+
+def _in_order(base: Refit, found: Scan) -> Iterator[tuple[float, list[_Start]]]:
+    """Gain and starts of the candidates that are worth it, in the order in which they are tried."""
+    first, *rest = found.worth_refitting(MOST, WORTH, nothing(base).adequacy < ADEQUATE) or (None,)
+    if first is None:
+        return
+    trials = [(s.gain, _starts_of(base, found, s)) for s in (first, *rest)]
+    if not is_poor(base):
+        yield from trials
+        return
+    if _price(trials[0]) < DEAR:
+        # the scan's favourite needs no rival to be tried
+        yield trials.pop(0)
+    cheap = [trial for trial in trials if _price(trial) == CHEAP]
+    widest = [(gain, [_with_rough(start) for start in starts]) for gain, starts in cheap]
+    yield from sorted(widest, key=lambda trial: min(_rough_objective(start) for start in trial[1]))
+    yield from sorted((trial for trial in trials if _price(trial) > CHEAP), key=_price)
+
+
+def _starts_of(base: Refit, found: Scan, signature: Signature) -> list[_Start]:
+    """The best starts of a candidate that are not neighbours, and those of its other magnitudes."""
+    own = [s for s in found.signatures if s.candidate.label == signature.candidate.label]
+    chosen: list[Signature] = []
+    for one in own:
+        if all(abs(float(one.change @ other.change)) < 0.9 for other in chosen):
+            chosen.append(one)
+    return [_start(base, s.candidate, s.start) for s in chosen[:STARTS]]
+
+
+def _start(base: Refit, candidate: Candidate, start: np.ndarray) -> _Start:
+    hypothesis = blank(base.hypothesis, (candidate,))
+    return _Start(hypothesis, np.r_[base.z, start])
+
+
+def _with_rough(start: _Start) -> _Start:
+    return replace(start, rough=widened(start.hypothesis, start.z))
+
+
+def _rough_objective(start: _Start) -> float:
+    return np.inf if start.rough is None else start.rough.objective
+
+
+def _price(trial: tuple[float, list[_Start]]) -> int:
+    """What an evaluation costs: least where the symmetry is kept, most with a contact."""
+    _, (start, *_) = trial
+    action = start.hypothesis.actions(start.z)[0]
+    if action.joint is not None:
+        return DEAR
+    return CHEAP if action.changes is None else CHEAP + 1
+
+
+def _best_refit(starts: Sequence[_Start], worth: float, *, far: bool) -> Refit | None:
+    """The best optimum of one candidate.
+
+    Parameters
+    ----------
+    starts : from where.
+    worth : objective above which it does not matter; then the nearest optimum is enough.
+    far : whether the declared model is so far off that wide valleys come first.
+    """
+    found: list[Refit] = []
+    for start in starts:
+        if np.isfinite(worth):
+            found += _kept(refitted(start.hypothesis, start.z, worth))
+            continue
+        for wide in (True, False) if far else (False, True):
+            found += _kept(_through(start) if wide else refitted(start.hypothesis, start.z))
+            if found and not is_poor(found[-1]):
+                break
+    return min(found, key=lambda r: r.objective, default=None)
+
+
+def _through(start: _Start) -> Refit | None:
+    return through_wide_valleys(start.hypothesis, start.z, start.rough)
+
+
+def _kept(found: Refit | None) -> list[Refit]:
+    return [] if found is None else [found]
