@@ -14,6 +14,7 @@ from threadpoolctl import threadpool_limits
 from statorhom.errors import InputFileError
 from statorhom.geometry.tested_object import object_geometry
 from statorhom.identify.bands import LEAST_VISIBLE, highest_hz
+from statorhom.identify.block_names import block_names
 from statorhom.identify.effect_shifts import effect_shifts
 from statorhom.identify.model_error import ModelError, model_error
 from statorhom.identify.optimizers.workers import Workers
@@ -27,7 +28,9 @@ from statorhom.identify.stage_setup import StageSetup, TestModes, stage_setup
 from statorhom.identify.stage_shapes import shape_file
 from statorhom.materials.hooke import Hooke
 from statorhom.mesh.hex_mesh import PartMesh
+from statorhom.mesh.mirror_mesh import MirrorMesh
 from statorhom.model.affine import AffineModel, Material, Materials, stator_model
+from statorhom.model.convergence import ModeKey
 from statorhom.model.free_modes import FreeModes, solve_free
 from statorhom.model.supported_modes import solve_supported
 from statorhom.model.supports import support_on
@@ -44,6 +47,7 @@ MARGIN = 1.15
 DEFAULT_BAND_HZ = 6000.0  # of a stage whose tests have no table to tell
 DEFAULT_SUPPORTED_HZ = 3000.0
 PICTURES = 24
+COLUMNS = ("mode", "frequency_hz", "order", "axial", "stage", "test")
 LEAST_SPLIT = 1e-6  # of ln f: below, one line stands for both
 
 
@@ -81,7 +85,8 @@ def simulate_study(path: Path, stage: str | None, out: Path | None) -> tuple[Pat
             materials, known = _materials(setup, known, identified.get(setup.keys.name, {}))
             if stage in (None, setup.keys.name):
                 rows += _simulate(files, setup, materials, folder)
-    table = pd.DataFrame(rows, columns=["mode", "frequency_hz", "order", "axial", "stage", "test"])
+    named = any("name" in row for row in rows)  # of plates, beams and wings
+    table = pd.DataFrame(rows, columns=[*COLUMNS, "name"] if named else [*COLUMNS])
     table = table.astype({"order": "Int64", "axial": "Int64"})
     target = folder / "modes.csv"
     write_text(target, table.to_csv(index=False))
@@ -120,7 +125,9 @@ def _from_results(materials: StageMaterials, identified: Mapping[str, RegionResu
         result = identified.get(region.source)
         if result is None or result.hooke_pa is None or result.density_kg_m3 is None:
             return None
-        found[region.region] = Material(Hooke(np.array(result.hooke_pa)), result.density_kg_m3)
+        found[region.region] = region.weighted(
+            Material(Hooke(np.array(result.hooke_pa)), result.density_kg_m3)
+        )
     return found
 
 
@@ -132,7 +139,9 @@ def _simulate(
     series = MeshSeries(setup.step, Settings().density, Settings().refinements[:PREDICTED_MESHES])
     top = MARGIN * highest_hz(setup.free_modes) if setup.free_modes else DEFAULT_BAND_HZ
     solution = solve_free(series.coarsest, materials, top, jobs=os.cpu_count() or 1)
-    _write_shapes(setup, series.coarsest, solution, folder)
+    mesh = series.coarsest.mesh
+    names = block_names(mesh, solution) if isinstance(mesh, MirrorMesh) else {}
+    _write_shapes(setup, series.coarsest, solution, names, folder)
     error = _mesh_error(series, materials, top, solution)
     effects = effect_shifts(files, setup)
     orders = sorted({solution.harmonics[m.problem].order for m in solution.modes})
@@ -146,7 +155,7 @@ def _simulate(
             modes = _supported(
                 stator_model(series.coarsest), effects.materials(materials), support, test, error
             )
-        rows += [_row(setup, test.name, i, mode) for i, mode in enumerate(modes, start=1)]
+        rows += [_row(setup, test.name, i, mode, names) for i, mode in enumerate(modes, start=1)]
     return rows
 
 
@@ -186,8 +195,10 @@ def _mesh_error(series: MeshSeries, materials: Materials, top_hz: float, solutio
     return model_error(study, {c.key: c.frequency_hz[0] for c in study})
 
 
-def _row(setup: StageSetup, test: str, number: int, mode: LabelledMode) -> dict[str, object]:
-    return {
+def _row(
+    setup: StageSetup, test: str, number: int, mode: LabelledMode, names: Mapping[ModeKey, str]
+) -> dict[str, object]:
+    row: dict[str, object] = {
         "mode": number,
         "frequency_hz": round(mode.frequency_hz, 2),
         "order": mode.order,
@@ -195,9 +206,17 @@ def _row(setup: StageSetup, test: str, number: int, mode: LabelledMode) -> dict[
         "stage": setup.keys.name,
         "test": test,
     }
+    key = mode.key if isinstance(mode, CorrectedMode) else None
+    return row | {"name": names.get(key, "") if key is not None else ""} if names else row
 
 
-def _write_shapes(setup: StageSetup, model: AffineModel[PartMesh], solution: FreeModes, folder: Path) -> None:
+def _write_shapes(
+    setup: StageSetup,
+    model: AffineModel[PartMesh],
+    solution: FreeModes,
+    names: Mapping[ModeKey, str],
+    folder: Path,
+) -> None:
     visible = [mode for mode in solution.modes if mode.family is not None][:PICTURES]
     name = f"simulated-{setup.index + 1}-{setup.keys.name}.npz"
-    write_shape_file(folder / "shapes" / name, shape_file(model, solution, visible))
+    write_shape_file(folder / "shapes" / name, shape_file(model, solution, visible, names))

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from statorhom.errors import MassError
-from statorhom.materials.density import Weighing, densities
+from statorhom.materials.density import Weighing, densities, shared_densities
 
 VOLUMES = {"lamination": 4.0e-4, "winding": 3.0e-4, "overhang": 1.0e-4, "frame": 2.0e-4, "machine": 5.0e-4}
 CHAIN = (
@@ -104,3 +104,32 @@ def test_contradicting_weights_are_refused_with_the_numbers(chain, reason):
 def test_a_region_without_volume_names_the_missing_table():
     with pytest.raises(MassError, match=r"stage 'housed'.*region frame.*add \[frame\]"):
         densities((CHAIN[0], CHAIN[3]), {"lamination": 4.0e-4})
+
+
+WING_VOLUMES = {"cloth": 4e-4, "foam": 3e-3}
+
+
+def test_the_weight_gives_the_one_density_that_is_not_known() -> None:
+    weighing = Weighing("wing", "coupon", 1.0, 0.004)
+    found = {d.region: d for d in shared_densities(weighing, WING_VOLUMES, {"foam": 80.0}, 0.1)}
+    assert found["foam"].density_kg_m3 == pytest.approx(80.0) and found["foam"].density_sd_kg_m3 == 0.0
+    assert found["cloth"].density_kg_m3 == pytest.approx((1.0 - 0.1 - 0.24) / 4e-4)
+    assert found["cloth"].density_sd_kg_m3 == pytest.approx(0.004 / 4e-4)
+
+
+def test_the_weight_scales_densities_that_are_all_known() -> None:
+    weighing = Weighing("wing", "coupon", 1.0, 0.004)
+    found = shared_densities(weighing, WING_VOLUMES, {"cloth": 1500.0, "foam": 80.0}, 0.1)
+    assert sum(d.mass_kg for d in found) == pytest.approx(0.9)
+    assert found[0].density_kg_m3 / found[1].density_kg_m3 == pytest.approx(1500.0 / 80.0)
+    # all of them together are as uncertain as the weight
+    assert sum(d.density_sd_kg_m3 * d.volume_m3 for d in found) == pytest.approx(0.004)
+
+
+@pytest.mark.parametrize(
+    ("known", "lumps_kg"), [({"foam": 400.0}, 0.0), ({"foam": 80.0, "cloth": 1500.0}, 1.1)]
+)
+def test_a_weight_below_its_parts_is_refused(known: dict[str, float], lumps_kg: float) -> None:
+    with pytest.raises(MassError, match="no more than the parts of known mass together") as caught:
+        shared_densities(Weighing("wing", "coupon", 1.0, 0.004), WING_VOLUMES, known, lumps_kg)
+    assert "\n" not in str(caught.value)

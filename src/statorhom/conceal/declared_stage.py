@@ -107,8 +107,8 @@ def declared_stage(case: Case, index: int, density: MeshDensity | None) -> Decla
     model = assemble(mesh_step(step, density or truth_mesh(case.stages[index])))
     constants, materials = {}, {}
     for region in model.mesh.regions:
-        source = region if study.symmetry(index, region) is not None else "winding"  # type: ignore[arg-type]
-        symmetry = str(study.symmetry(index, source))  # type: ignore[arg-type]
+        source = region if study.symmetry(index, region) is not None else "winding"
+        symmetry = str(study.symmetry(index, source))
         values = _as_declared(symmetry, case.stages[index].materials[source])
         weighed = "winding" if source == "overhang" else source
         last = [stage.name for stage in stages if REGION_OF_STEP[stage.kind] == weighed][-1]

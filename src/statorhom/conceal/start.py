@@ -93,7 +93,7 @@ class _Materials:
         if region == "winding":
             self.copper = self.copper or (density if kind == "wound" else drawn_density("wound", self.rng))
             density = self.copper if kind == "wound" else self.copper + density
-        self.found[region] = self._drawn(index, region, density)  # type: ignore[arg-type]
+        self.found[region] = self._drawn(index, region, density)
         if region == "winding":
             has_own = self.study.symmetry(index, "overhang") is not None
             self.found["overhang"] = (

@@ -11,6 +11,7 @@ import numpy as np
 
 from statorhom.errors import GeometryError
 from statorhom.geometry.wing_lattice import WingLattice, wing_lattice
+from statorhom.study.frozen_map import FrozenMap
 
 STEEPEST_DEG = 60.0
 
@@ -75,6 +76,28 @@ class PlanForm:
 
 
 @dataclass(frozen=True)
+class Lump:
+    """A point mass on the upper skin.
+
+    Parameters
+    ----------
+    name : for messages.
+    mass : kg, of one.
+    x, y : m; unless y is 0 there is one each side.
+    """
+
+    name: str
+    mass: float
+    x: float
+    y: float
+
+    @property
+    def copies(self) -> int:
+        """How many the whole wing has."""
+        return 2 if self.y > 0.0 else 1
+
+
+@dataclass(frozen=True)
 class WingGeometry:
     """A wing, symmetric about y = 0: x backwards, y to the right, z up.
 
@@ -88,6 +111,8 @@ class WingGeometry:
     cage : width (along the span) and thickness of the walls of the payload cage between the spars (m), or None.
     cage_region : its material.
     source : the geometry file, for messages.
+    lumps : point masses.
+    densities : material → kg/m³, as far as they are known; the weight gives the one that is not.
     """
 
     plan: PlanForm
@@ -98,6 +123,8 @@ class WingGeometry:
     cage: tuple[float, float] | None
     cage_region: str
     source: str
+    lumps: tuple[Lump, ...] = ()
+    densities: Mapping[str, float] = FrozenMap({})
 
     def __post_init__(self) -> None:
         p = self.plan
@@ -116,9 +143,21 @@ class WingGeometry:
         walls = (cage, *self.ribs, p.half_span)
         if any(np.diff(walls) <= 2 * self.web):
             raise self._error("ribs_mm", "must rise from the payload cage to the tip, with room between them")
+        for lump in self.lumps:
+            if not self._carries(lump):
+                raise self._error(f"lumps[{lump.name}]", f"lies off the wing at its y_mm = {1e3 * lump.y:g}")
 
     def _error(self, key: str, problem: str) -> GeometryError:
         return GeometryError(f"{self.source}: wing.{key}: {problem}; correct the number")
+
+    def _carries(self, lump: Lump) -> bool:
+        nose = float(self.plan.leading_edge(lump.y))
+        return lump.y <= self.plan.half_span and nose <= lump.x <= nose + float(self.plan.chord(lump.y))
+
+    @property
+    def lump_mass(self) -> float:
+        """Of all lumps on both sides (kg)."""
+        return sum(lump.copies * lump.mass for lump in self.lumps)
 
     @property
     def edge(self) -> float:

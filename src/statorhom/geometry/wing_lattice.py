@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 
 BAY, EDGE, SPAR, CAGE, RIB = range(5)  # what a strip is
 NOTHING = -1
-COLUMNS = (2, 3, 2)  # cells of the bays before, between and behind the spars on the coarsest division
+# cells of the bays before, between and behind the spars on the coarsest division; even, as those along the span are, so
+# that one and a half times as many are a similar mesh
+COLUMNS = (2, 4, 2)
 LONGEST = 0.15  # m: cells along the span there
 _CUBE = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
 _TETRAHEDRA = ((1, 2), (2, 3), (3, 7), (7, 4), (4, 5), (5, 1))  # all with the corners 0 and 6
@@ -89,7 +91,7 @@ def _rows(wing: WingGeometry, factor: float) -> tuple[np.ndarray, np.ndarray]:
     borders, kinds = [0.0], []
     for begin, end, kind in (*walls, (half - wing.web, half, RIB)):
         if begin > borders[-1]:
-            count = _count(max(2.0, np.ceil((begin - borders[-1]) / LONGEST)), factor)
+            count = _count(2.0 * np.ceil((begin - borders[-1]) / (2.0 * LONGEST)), factor)
             borders += np.linspace(borders[-1], begin, count + 1)[1:].tolist()
             kinds += [BAY] * count
         borders.append(end)

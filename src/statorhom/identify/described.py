@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
+
 from statorhom.geometry.block import BlockGeometry
 from statorhom.geometry.tested_object import ObjectGeometry
+from statorhom.geometry.wing import WingGeometry
 from statorhom.study.geometry_file import GeometryFile
 from statorhom.study.object_file import ObjectFile
 
 
 def described(drawing: ObjectFile, geometry: ObjectGeometry) -> dict[str, float | int | str]:
-    """Name and main dimensions of a stator, a block or a tube."""
+    """Name and main dimensions of a stator, a block, a tube or a wing."""
     name = drawing.name
     if isinstance(geometry, BlockGeometry):
         sizes = [1e3 * size for size in geometry.size]
@@ -20,6 +23,16 @@ def described(drawing: ObjectFile, geometry: ObjectGeometry) -> dict[str, float 
             "length_mm": sizes[0],
             "width_mm": sizes[1],
             height: sizes[2],
+        }
+    if isinstance(geometry, WingGeometry):
+        plan = geometry.plan
+        return {
+            "name": name,
+            "kind": drawing.kind,
+            "span_mm": 2e3 * plan.half_span,
+            "root_chord_mm": 1e3 * plan.root_chord,
+            "tip_chord_mm": 1e3 * plan.tip_chord,
+            "sweep_deg": math.degrees(plan.sweep),
         }
     d = geometry.dimensions
     lengths = {

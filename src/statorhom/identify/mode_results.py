@@ -18,7 +18,6 @@ from statorhom.identify.stage_problem import (
 from statorhom.identify.stage_run import StageRun
 from statorhom.identify.stage_setup import TestModes
 from statorhom.mesh.mirror_mesh import MirrorMesh
-from statorhom.model.mirror_names import mirror_kind
 from statorhom.results.schema import ModeResult
 from statorhom.study.modal_table import MeasuredMode
 from statorhom.study.study_file import FREE
@@ -142,8 +141,7 @@ def _simulated_alone(run: StageRun, test: str, mode: CorrectedMode, shape: int |
     )
 
 
-def _kind(run: StageRun, mode: CorrectedMode) -> str:
-    mesh, parities = run.model.mesh, mode.mode.parities
-    if isinstance(mesh, MirrorMesh) and parities is not None:
-        return mirror_kind(mesh, parities)
-    return mode.kind
+def _kind(run: StageRun, simulated: CorrectedMode) -> str:
+    if isinstance(run.model.mesh, MirrorMesh):
+        return run.block_names.get(simulated.key, "") if simulated.key is not None else ""
+    return simulated.kind

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 
 import numpy as np
@@ -17,6 +17,7 @@ from statorhom.materials.density import RegionDensity
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.materials.typical import prior_range
 from statorhom.results.schema import CarriedParameter, CarriedState
+from statorhom.study.regions import COUPON
 from statorhom.study.stages import StageKeys
 
 Z90 = 1.6448536269514722  # the standard normal's 95 % quantile
@@ -104,6 +105,7 @@ def stage_space(
         ]
         parameters.append(_density(source, densities[_weighed(source)]))
         ties += [_tie(source, group) for group in stage.identify.tied.get(source, ())]
+    ties += _weighed_together(parameters, stage)
     parameters.append(Parameter(MESH, 0.0, -Z90, Z90, -4.0, 4.0, "linear"))
     blocks = () if carried.block is None else (carried.block,)
     return ParameterSpace(tuple(parameters), tuple(ties), blocks)
@@ -152,10 +154,18 @@ def _constant(
 
 def _density(source: str, density: RegionDensity) -> Parameter:
     value, spread = density.density_kg_m3, Z90 * density.density_sd_kg_m3
+    if spread == 0.0:
+        return Parameter.constant(f"{source}.{DENSITY}", value)
     width = min(4 * spread, 0.9 * value)
     return Parameter(
         f"{source}.{DENSITY}", value, value - spread, value + spread, value - width, value + width, "linear"
     )
+
+
+def _weighed_together(parameters: Sequence[Parameter], stage: StageKeys) -> list[Tie]:
+    """Densities of a coupon's materials that one weight scales."""
+    free = [p.name for p in parameters if p.name.endswith(DENSITY) and not p.fixed]
+    return [Tie(tuple(free), "proportional")] if stage.kind == COUPON and len(free) > 1 else []
 
 
 def _tie(source: str, group: tuple[str, ...]) -> Tie:

@@ -8,11 +8,13 @@ from functools import cached_property
 
 from statorhom.geometry.block import BlockGeometry
 from statorhom.geometry.tested_object import ObjectStep
+from statorhom.geometry.wing import WingGeometry
 from statorhom.identify.optimizers.workers import Tick, Workers
 from statorhom.mesh.block import block_mesh
 from statorhom.mesh.density import MeshDensity
 from statorhom.mesh.extrude import mesh_step
 from statorhom.mesh.hex_mesh import PartMesh
+from statorhom.mesh.wing import wing_mesh
 from statorhom.model.affine import AffineModel, Materials, assemble
 from statorhom.model.convergence import ModeConvergence, converge
 from statorhom.model.free_modes import FreeModes, FreeProblem, problem_at
@@ -43,7 +45,7 @@ class MeshSeries:
     Parameters
     ----------
     step : its geometry.
-    density : of the coarsest mesh of a stator; blocks have their own.
+    density : of the coarsest mesh of a stator; blocks and wings have their own.
     refinements : factors of the number of cells, ascending from 1.
     """
 
@@ -59,6 +61,8 @@ class MeshSeries:
     def _mesh(self, factor: float) -> PartMesh:
         if isinstance(self.step, BlockGeometry):
             return block_mesh(self.step, factor)
+        if isinstance(self.step, WingGeometry):
+            return wing_mesh(self.step, factor)
         return mesh_step(self.step, self.density.refined(factor))
 
     @property

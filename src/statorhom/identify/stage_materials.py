@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,13 +18,14 @@ STEP = 1e-6  # relative; Hooke entries are smooth functions of the constants
 class RegionModel:
     """A region and the symmetry that the engineer believes it has; `source` lends its material where it has none.
 
-    A coupon's axes are `numbered` 1, 2, 3.
+    A coupon's axes are `numbered` 1, 2, 3. Lumps have a `density` of their own, which nobody identifies.
     """
 
     region: str
     symmetry: str
     source: str
     numbered: bool = False
+    density: float | None = None
 
     @property
     def constants(self) -> tuple[str, ...]:
@@ -47,6 +48,10 @@ class RegionModel:
         symmetry = SYMMETRIES[self.symmetry](*(values[name] for name in self.names))
         return Material(symmetry.hooke(), values[f"{self.source}.{DENSITY}"])
 
+    def weighted(self, material: Material) -> Material:
+        """The source's material with the region's own density, where it has one."""
+        return material if self.density is None else replace(material, density=self.density)
+
 
 @dataclass(frozen=True)
 class StageMaterials:
@@ -60,7 +65,7 @@ class StageMaterials:
         for region in self.regions:
             if region.source not in found:
                 found[region.source] = region.material(values)
-        return {region.region: found[region.source] for region in self.regions}
+        return {r.region: r.weighted(found[r.source]) for r in self.regions}
 
     def hooke_slopes(self, values: Mapping[str, float]) -> dict[str, dict[str, np.ndarray]]:
         """Region → constant → derivative of the region's nine Hooke entries, by central differences."""
@@ -95,7 +100,8 @@ class StageMaterials:
             hooke, density = gradient[region.region]
             for name, slope in slopes[region.region].items():
                 found[name] += float(hooke @ slope)
-            found[f"{region.source}.{DENSITY}"] += density
+            if region.density is None:
+                found[f"{region.source}.{DENSITY}"] += density
         return found
 
     @property

@@ -21,7 +21,6 @@ from statorhom.materials.density import RegionDensity
 from statorhom.materials.plausibility import density_warning
 from statorhom.mesh.mirror_mesh import MirrorMesh
 from statorhom.model.convergence import ModeConvergence, ModeKey, mode_keys
-from statorhom.model.mirror_names import mirror_kind
 from statorhom.results.schema import (
     Constant,
     Convergence,
@@ -121,12 +120,11 @@ def _stage(setup: StageSetup, before_kg: float, regions: Mapping[str, RegionResu
 
 
 def _convergence(run: StageRun, c: ModeConvergence) -> Convergence:
-    mesh = run.model.mesh
-    block = isinstance(mesh, MirrorMesh)
+    block = isinstance(run.model.mesh, MirrorMesh)
     return Convergence(
         order=None if block else c.key[0],
         axial=None if block else c.key[1],
-        kind=mirror_kind(mesh, c.key[0]) if isinstance(mesh, MirrorMesh) else None,
+        kind=run.block_names.get(c.key, "") if block else None,
         dof=c.dof,
         frequency_hz=c.frequency_hz,
         extrapolated_hz=c.extrapolated_hz,
@@ -149,12 +147,11 @@ def _sensitivity(run: StageRun) -> Sensitivity:
 
 def _mode_names(run: StageRun, keys: Sequence[ModeKey]) -> tuple[str, ...]:
     """Names of a block's modes: by the motion and the frequency; none of others."""
-    mesh = run.model.mesh
-    if not isinstance(mesh, MirrorMesh):
+    if not isinstance(run.model.mesh, MirrorMesh):
         return ()
     solved = mode_keys(run.fit.problem.solve(run.fit.posterior.best.x).modes)
     return tuple(
-        f"{mirror_kind(mesh, key[0])} {solved[key].frequency_hz:.0f} Hz".strip()
+        f"{run.block_names.get(key, '')} {solved[key].frequency_hz:.0f} Hz".strip()
         for key in keys
         if key in solved
     )

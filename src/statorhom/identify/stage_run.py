@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from statorhom.errors import IdentificationError
 from statorhom.identify.announce import Announce
 from statorhom.identify.bands import highest_hz, mode_names, named_spaces
 from statorhom.identify.basis_check import BasisCheck, check_basis, together
+from statorhom.identify.block_names import block_names
 from statorhom.identify.effect_shifts import NO_EFFECTS, EffectShifts
 from statorhom.identify.fit_bases import FitBases
 from statorhom.identify.model_error import ModelError, model_error
@@ -27,6 +30,7 @@ from statorhom.identify.surface.part_model import part_model
 from statorhom.identify.surface.search import SurfaceSearch, search_surface
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.mesh.hex_mesh import PartMesh
+from statorhom.mesh.mirror_mesh import MirrorMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.basis_store import BasisStore
 from statorhom.model.broken.named_response import Response
@@ -72,6 +76,11 @@ class StageRun:
     effects: EffectShifts = NO_EFFECTS
     surface: SurfaceSearch | None = None
     at_tests: FreeModes | None = None
+
+    @cached_property
+    def block_names(self) -> Mapping[ModeKey, str]:
+        """Names of the simulated modes of a plate, a beam or a wing; none of others."""
+        return block_names(self.model.mesh, self.solution) if isinstance(self.model.mesh, MirrorMesh) else {}
 
 
 def run_stage(

@@ -9,6 +9,7 @@ from statorhom.errors import IdentificationError, MassError, MaterialError
 from statorhom.geometry.block import BlockGeometry
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.geometry.tested_object import ObjectGeometry, ObjectStep
+from statorhom.geometry.wing import WingGeometry
 from statorhom.identify.optimizers.base import MIN_EVALUATIONS
 from statorhom.identify.stage_materials import RegionModel, StageMaterials
 from statorhom.materials.analytic import analytic_lamination, analytic_winding
@@ -18,6 +19,7 @@ from statorhom.materials.density import (
     Weighing,
     check_no_loss,
     densities,
+    shared_densities,
     whole_density,
 )
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
@@ -29,6 +31,7 @@ from statorhom.study.regions import COUPON
 from statorhom.study.stages import StageKeys
 from statorhom.study.study import StudyFiles
 from statorhom.study.study_file import FREE
+from statorhom.study.wing_file import LUMPS
 
 
 @dataclass(frozen=True)
@@ -160,9 +163,14 @@ def _described(geometry: ObjectGeometry, kinds: tuple[str, ...]) -> bool:
 
 def _densities(files: StudyFiles, index: int, step: ObjectStep | None) -> dict[str, RegionDensity]:
     weights = weighings(files, index)
-    if weights[0].kind == COUPON and step is not None:
-        return {region: whole_density(weights[0], region, v) for region, v in step.exact_volumes().items()}
     try:
+        if isinstance(step, WingGeometry):
+            found = shared_densities(weights[0], step.exact_volumes(), step.densities, step.lump_mass)
+            return {density.region: density for density in found}
+        if weights[0].kind == COUPON and step is not None:
+            return {
+                region: whole_density(weights[0], region, v) for region, v in step.exact_volumes().items()
+            }
         check_no_loss(weights)
         found = () if step is None else densities(weights, step.exact_volumes())
     except MassError as error:
@@ -174,7 +182,7 @@ def _regions(files: StudyFiles, index: int, step: ObjectStep) -> tuple[RegionMod
     regions = []
     for region in step.regions:
         source = region
-        symmetry = files.study.symmetry(index, region)  # type: ignore[arg-type]
+        symmetry = files.study.symmetry(index, region)
         if symmetry is None and region == "overhang":
             source, symmetry = "winding", files.study.symmetry(index, "winding")
         if symmetry is None:
@@ -184,6 +192,8 @@ def _regions(files: StudyFiles, index: int, step: ObjectStep) -> tuple[RegionMod
             )
         numbered = files.study.stages[index].kind == COUPON
         regions.append(RegionModel(region, symmetry, source, numbered))
+    if isinstance(step, WingGeometry) and step.lumps:
+        regions.append(replace(regions[0], region=LUMPS, density=1.0))
     return tuple(regions)
 
 
@@ -191,7 +201,7 @@ def _test_modes(files: StudyFiles, test: ModalTestKeys, geometry: ObjectGeometry
     table = files.tables.get(test.name)
     modes = () if table is None else table.modes
     held = {str(number) for number in test.hold_out}
-    if isinstance(geometry, BlockGeometry):
+    if isinstance(geometry, BlockGeometry | WingGeometry):
         # only round objects have modes (r, n)
         modes = tuple(replace(mode, order=None, axial=None) for mode in modes)
     elif test.modal_table is None and isinstance(geometry, StatorGeometry):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -12,8 +12,8 @@ from statorhom.identify.stage_run import StageRun
 from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.mesh.mirror_mesh import MirrorMesh
 from statorhom.model.affine import AffineModel, stator_model
+from statorhom.model.convergence import ModeKey, mode_keys
 from statorhom.model.free_modes import FreeModes
-from statorhom.model.mirror_names import mirror_kind
 from statorhom.model.stator_mode import StatorMode
 from statorhom.results.shape_file import ShapeFile
 
@@ -34,15 +34,27 @@ def free_shapes(run: StageRun) -> tuple[ShapeFile, dict[int, int]]:
         if mode.visibility >= 1.0 and len(modes) < MOST:
             rows[number] = len(modes)
             modes.append(mode.mode)
-    return shape_file(run.model, run.solution, modes), rows
+    return shape_file(run.model, run.solution, modes, run.block_names), rows
 
 
-def shape_file(model: AffineModel[PartMesh], solution: FreeModes, modes: Sequence[StatorMode]) -> ShapeFile:
-    """Shapes of some modes of a solution."""
+def shape_file(
+    model: AffineModel[PartMesh],
+    solution: FreeModes,
+    modes: Sequence[StatorMode],
+    names: Mapping[ModeKey, str],
+) -> ShapeFile:
+    """Shapes of some modes of a solution.
+
+    Parameters
+    ----------
+    model, solution : the modes' own.
+    modes : to keep.
+    names : of a block's modes, see `block_names`.
+    """
     if isinstance(model.mesh, MirrorMesh):
-        mesh = model.mesh
-        shapes = tuple(block_shape(solution, mode, mirror_kind(mesh, mode.parities or 0)) for mode in modes)
-        return ShapeFile(mesh, np.zeros(0), shapes)
+        known = {id(mode): names.get(key, "") for key, mode in mode_keys(solution.modes).items()}
+        shapes = tuple(block_shape(solution, mode, known.get(id(mode), "")) for mode in modes)
+        return ShapeFile(model.mesh, np.zeros(0), shapes)
     stator = stator_model(model).mesh
     grid = shape_grid(stator)
     return ShapeFile(stator, grid.planes, tuple(mode_shape(grid, solution, mode) for mode in modes))

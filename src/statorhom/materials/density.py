@@ -137,6 +137,42 @@ def whole_density(weighing: Weighing, region: str, volume_m3: float) -> RegionDe
     )
 
 
+def shared_densities(
+    weighing: Weighing, volumes_m3: Mapping[str, float], known: Mapping[str, float], lumps_kg: float
+) -> tuple[RegionDensity, ...]:
+    """Densities of an object that is weighed as a whole and made of several materials.
+
+    Parameters
+    ----------
+    weighing : of the whole.
+    volumes_m3 : volume of each region.
+    known : densities in kg/m³ of all regions but one, which the weight gives; or of all, which it scales.
+    lumps_kg : part of the weight that belongs to no region.
+
+    Raises
+    ------
+    MassError
+        If nothing is left for the regions.
+    """
+    fixed = {region: known[region] * v for region, v in volumes_m3.items() if region in known}
+    rest = weighing.mass_kg - lumps_kg
+    if len(fixed) < len(volumes_m3):
+        rest -= sum(fixed.values())
+    if rest <= 0.0:
+        raise MassError(
+            f"mass_kg: {weighing} is no more than the parts of known mass together, "
+            f"{weighing.mass_kg - rest:.4g} kg: correct this weight, density_kg_m3 or mass_g of the lumps"
+        )
+    factor = rest / sum(fixed.values()) if len(fixed) == len(volumes_m3) else 1.0
+    found = []
+    for region, volume in volumes_m3.items():
+        scaled = len(fixed) == len(volumes_m3)
+        mass = factor * fixed[region] if region in fixed else rest
+        sd = weighing.mass_sd_kg * (mass / rest if scaled else float(region not in fixed))
+        found.append(RegionDensity(weighing.stage, region, mass, volume, mass / volume, sd / volume))
+    return tuple(found)
+
+
 def _before(weighings: Sequence[Weighing]) -> tuple[float, float]:
     """Mass and standard deviation of what was there before the last step's region."""
     *earlier, last = weighings

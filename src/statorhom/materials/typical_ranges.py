@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from statistics import NormalDist
 
 from statorhom.errors import MaterialError
+from statorhom.study.regions import COUPON
 
 # the limits of a modulus lie this many prior standard deviations from the middle of its range
 _REACH = 4.0
@@ -104,20 +105,19 @@ _REGIONS: Mapping[str | tuple[str, str], TypicalRegion] = {
     "frame": _solid(youngs=(65.0, 210.0), shear=(25.0, 82.0)),
     # end shields with ribs, openings and screwed joints
     "machine": _solid(youngs=(10.0, 210.0), shear=(4.0, 82.0)),
-    "plate": _COUPON,
-    "beam": _COUPON,
-    "tube": _COUPON,
 }
 
 
 def typical_region(region: str, stage_kind: str) -> TypicalRegion:
-    """Return what is typical of a region at a fabrication step.
+    """Return what is typical of a region at a fabrication step; coupons may be of any material.
 
     Raises
     ------
     MaterialError
         There is no such region.
     """
+    if stage_kind == COUPON:
+        return _COUPON
     found = _REGIONS.get((region, stage_kind), _REGIONS.get(region))
     if found is None:
         known = ", ".join(name for name in _REGIONS if isinstance(name, str))

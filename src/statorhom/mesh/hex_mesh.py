@@ -53,6 +53,22 @@ class HexMesh:
 
 
 @dataclass(frozen=True, eq=False)
+class PointMasses:
+    """Masses that belong to points of elements.
+
+    Parameters
+    ----------
+    elements : (k,) their numbers.
+    places : (k, 3) local coordinates in them, 0 … 1.
+    masses : (k,) kg.
+    """
+
+    elements: np.ndarray
+    places: np.ndarray
+    masses: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
 class PartMesh(HexMesh):
     """Mesh of the part that a symmetric body is copied from; `axes` are those of its materials."""
 
@@ -60,6 +76,10 @@ class PartMesh(HexMesh):
 
     def cell_axes(self, numbers: np.ndarray) -> np.ndarray | None:  # noqa: ARG002
         """Materials' axes (k, 3, 3) of some elements as columns, in components of `axes`; None where they are these."""
+        return None
+
+    def point_masses(self) -> PointMasses | None:
+        """Masses without volume or stiffness; their region is called `LUMPS`."""
         return None
 
     @property

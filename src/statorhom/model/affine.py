@@ -28,6 +28,8 @@ from statorhom.model.assembly import (
 )
 from statorhom.model.element import gauss_table
 from statorhom.model.frames import FRAMES
+from statorhom.model.point_masses import lump_mass
+from statorhom.study.wing_file import LUMPS
 
 
 @dataclass(frozen=True)
@@ -67,6 +69,24 @@ _Mesh = TypeVar("_Mesh", bound=PartMesh)
 
 
 @dataclass(frozen=True, eq=False)
+class RegionStiffness:
+    """Stiffness of one region per unit Hooke entry, at the places of the pattern that it touches.
+
+    Parameters
+    ----------
+    places : (p,) their numbers.
+    blocks : (9, p, 3, 3) block data (m).
+    """
+
+    places: np.ndarray
+    blocks: np.ndarray
+
+    def add(self, coefficients: np.ndarray, data: np.ndarray) -> None:
+        """Add the stiffness at nine Hooke entries to block data (places, 3, 3) of the whole pattern."""
+        data[self.places] += np.tensordot(coefficients, self.blocks, axes=1)
+
+
+@dataclass(frozen=True, eq=False)
 class AffineModel(Generic[Mesh]):
     """A symmetric body's part before its materials are known.
 
@@ -74,14 +94,14 @@ class AffineModel(Generic[Mesh]):
     ----------
     mesh : of the part.
     pattern : node couplings.
-    stiffness : region → (9, places, 3, 3) block data per unit Hooke entry (m).
-    mass : region → (places, 3, 3) block data per unit density (m³).
-    volumes : region → volume in the whole body's mesh (m³).
+    stiffness : region → what it contributes to K; lumps have none.
+    mass : region → (places, 3, 3) block data per unit density (m³); of lumps for their own masses (kg).
+    volumes : region → volume in the whole body's mesh (m³); of lumps their mass (kg), for their density is 1.
     """
 
     mesh: Mesh
     pattern: BlockPattern
-    stiffness: Mapping[str, np.ndarray]
+    stiffness: Mapping[str, RegionStiffness]
     mass: Mapping[str, np.ndarray]
     volumes: Mapping[str, float]
 
@@ -92,17 +112,20 @@ class AffineModel(Generic[Mesh]):
 
     def stiffness_matrix(self, materials: Materials) -> sp.csr_array:
         """K of the part (N/m)."""
-        data = sum(
-            np.tensordot(hooke_coefficients(materials[region].hooke), blocks, axes=1)
-            for region, blocks in self.stiffness.items()
+        return self.pattern.matrix(
+            self.stiffness_data({r: hooke_coefficients(materials[r].hooke) for r in self.stiffness})
         )
-        return self.pattern.matrix(np.asarray(data))
+
+    def stiffness_data(self, coefficients: Mapping[str, np.ndarray]) -> np.ndarray:
+        """Block data (places, 3, 3) of K at nine Hooke entries of some regions."""
+        data = np.zeros((len(self.pattern.indices), 3, 3))
+        for region, entries in coefficients.items():
+            self.stiffness[region].add(entries, data)
+        return data
 
     def region_stiffness(self, region: str, material: Material) -> sp.csr_array:
         """Contribution of one region to K (N/m)."""
-        return self.pattern.matrix(
-            np.tensordot(hooke_coefficients(material.hooke), self.stiffness[region], axes=1)
-        )
+        return self.pattern.matrix(self.stiffness_data({region: hooke_coefficients(material.hooke)}))
 
     def mass_matrix(self, materials: Materials) -> sp.csr_array:
         """M of the part (kg)."""
@@ -111,7 +134,7 @@ class AffineModel(Generic[Mesh]):
 
     def stiffness_term(self, region: str, entry: int) -> sp.csr_array:
         """K_q of one Hooke entry (index into `HOOKE_ENTRIES`) of one region."""
-        return self.pattern.matrix(self.stiffness[region][entry])
+        return self.pattern.matrix(self.stiffness_data({region: np.eye(len(HOOKE_ENTRIES))[entry]}))
 
     def mass_term(self, region: str) -> sp.csr_array:
         """M per unit density of one region."""
@@ -136,13 +159,21 @@ def assemble(mesh: _Mesh) -> AffineModel[_Mesh]:
     pattern = block_pattern(mesh.elements, len(mesh.nodes))
     stiffness, mass, volumes = {}, {}, {}
     for i, name in enumerate(mesh.regions):
+        if name == LUMPS:
+            continue
         stiffness[name], mass[name], half = _region_terms(mesh, pattern, i)
         volumes[name] = mesh.copies * half
+    lumps = mesh.point_masses()
+    if lumps is not None:
+        mass[LUMPS] = lump_mass(pattern, lumps)
+        volumes[LUMPS] = mesh.copies * float(lumps.masses.sum())
     return AffineModel(mesh, pattern, stiffness, mass, volumes)
 
 
-def _region_terms(mesh: PartMesh, pattern: BlockPattern, region: int) -> tuple[np.ndarray, np.ndarray, float]:
-    """Stiffness terms, mass and volume of one region; only its own elements are summed."""
+def _region_terms(
+    mesh: PartMesh, pattern: BlockPattern, region: int
+) -> tuple[RegionStiffness, np.ndarray, float]:
+    """Stiffness, mass and volume of one region; only its own elements are summed."""
     gather = pattern.part(np.flatnonzero(mesh.region == region))
     stiffness: list[list[np.ndarray]] = [[] for _ in HOOKE_ENTRIES]
     mass = []
@@ -154,5 +185,5 @@ def _region_terms(mesh: PartMesh, pattern: BlockPattern, region: int) -> tuple[n
             term.append(node_blocks(matrices))
         mass.append(node_blocks(mass_blocks(geometry, gauss_table().values)))
         volume += float(geometry.volume.sum())
-    terms = np.stack([gather(np.concatenate(term)) for term in stiffness])
-    return terms, gather(np.concatenate(mass)), volume
+    terms = np.stack([gather.summed(np.concatenate(term)) for term in stiffness])
+    return RegionStiffness(gather.places, terms), gather(np.concatenate(mass)), volume

@@ -72,8 +72,8 @@ def harmonic_terms(model: AffineModel[PartMesh], harmonic: Space, span: Material
 
 
 def _stiffness(model: AffineModel[PartMesh], direction: np.ndarray, regions: Sequence[str]) -> np.ndarray:
-    """Entries of K per unit of a direction in which regions move together."""
-    return np.asarray(sum(np.tensordot(direction, model.stiffness[region], axes=1) for region in regions))
+    """Entries of K per unit of a direction in which regions move together; lumps have no stiffness."""
+    return model.stiffness_data({region: direction for region in regions if region in model.stiffness})
 
 
 def _keys(matrix: sp.csr_array, n: int) -> np.ndarray:

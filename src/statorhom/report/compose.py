@@ -20,6 +20,7 @@ from statorhom.report.sections.shapes import shapes
 from statorhom.report.sections.spectra import spectra
 from statorhom.report.sections.summary import summary
 from statorhom.report.sections.surface import surface
+from statorhom.report.wording import WING
 from statorhom.results import Results
 from statorhom.study.message import one_line
 
@@ -50,7 +51,7 @@ def compose(results: Results, folder: Path) -> Document:
     )
     sections = tuple(section for section in candidates if section is not None)
     return Document(
-        f"Material of a {coupon}, from its weight and its modes"
+        f"Material{'s' if coupon == WING else ''} of a {coupon}, from its weight and its modes"
         if (coupon := coupon_of(steps)) is not None
         else "Materials of a stator, from its weight and its modes",
         one_line(results.study),

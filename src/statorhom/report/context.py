@@ -31,16 +31,12 @@ class DrawnShapes:
 
 @dataclass(frozen=True)
 class Step:
-    """One fabrication step."""
+    """One fabrication step; `coupon` says what a coupon is: a plate, a beam, a tube or a wing, None of a stator."""
 
     result: StageResult
     before: StageResult | None
     shapes: DrawnShapes | None
-
-    @property
-    def coupon(self) -> str | None:
-        """What a coupon is, by its region: a plate, a beam or a tube; None of a stator."""
-        return next(iter(self.result.regions), "coupon") if self.result.kind == COUPON else None
+    coupon: str | None
 
     @property
     def is_block(self) -> bool:
@@ -91,8 +87,9 @@ def steps_of(results: Results, folder: Path) -> tuple[Step, ...]:
         If a shape file lies outside the folder or is damaged; a missing one only leaves out its pictures.
     """
     befores = (None, *results.stages[:-1])
+    kind = str(results.geometry.get("kind", COUPON))
     return tuple(
-        Step(stage, before, _shapes(stage, folder))
+        Step(stage, before, _shapes(stage, folder), kind if stage.kind == COUPON else None)
         for stage, before in zip(results.stages, befores, strict=False)
     )
 
@@ -103,7 +100,7 @@ def coupon_of(steps: Sequence[Step]) -> str | None:
 
 
 def are_blocks(steps: Sequence[Step]) -> bool:
-    """Whether the study is of a plate or a beam."""
+    """Whether the study is of a plate, a beam or a wing."""
     return bool(steps) and steps[0].is_block
 
 

@@ -36,6 +36,8 @@ _MEANING = {
 }
 AXES_OF_ROUND = ("r", "θ", "z")
 AXES_OF_BLOCKS = ("x", "y", "z")
+AXES_OF_PLIES = ("1", "2", "3")
+WING = "wing"  # of coupons the one that has several materials
 _SYMMETRY = {
     "isotropic": "isotropic (the same in all directions)",
     "transversely_isotropic": "transversely isotropic (the same in all {0}–{1} directions, different along {2})",
@@ -51,14 +53,10 @@ _KIND = {
 }
 _MODE_KIND = {
     "torsion": "torsion of the core",
-    "torsion about x": "torsion about x",
     "axial": "axial motion",
     "winding": "motion of the winding",
     "radial": "radial motion",
-    "bending": "bending",
     "in plane": "in-plane motion",
-    "bending along y": "bending along y",
-    "bending along z": "bending along z",
 }
 _NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 _SUBSCRIPT = {"t": "θ"}
@@ -99,14 +97,15 @@ def step_words(kind: str) -> str:
 def mode_name(order: int | None, axial: int | None, kind: str | None = None) -> str:
     """(r, n), or the kind of a mode without radial motion."""
     if order is None:
-        return _MODE_KIND.get(kind or "", "unnamed") if kind != "radial" else "radial, order unknown"
+        # what a plate, a beam or a wing does is said in full
+        return _MODE_KIND.get(kind or "", kind or "unnamed") if kind != "radial" else "radial, order unknown"
     return f"({order}, {'?' if axial is None else axial})"
 
 
 def short_name(mode: ModeResult) -> str:
     """A mode's name where there is little space."""
     if mode.order is None:
-        return mode.kind if mode.kind in _MODE_KIND and mode.kind != "radial" else "(?)"
+        return mode.kind if mode.kind and mode.kind != "radial" else "(?)"
     return mode_name(mode.order, mode.axial)
 
 

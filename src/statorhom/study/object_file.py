@@ -12,14 +12,16 @@ from statorhom.study.geometry_file import STATORS_ONLY, GeometryFile
 from statorhom.study.message import input_error, quoted
 from statorhom.study.nearest import hint
 from statorhom.study.toml_file import parsed_toml, validated
+from statorhom.study.wing_file import WingFile
 
-ObjectFile = GeometryFile | CouponFile
+ObjectFile = GeometryFile | CouponFile | WingFile
 
 STATOR = "stator"
-KINDS: Mapping[str, type[GeometryFile] | type[PlateFile] | type[BeamFile] | type[TubeFile]] = (
-    MappingProxyType({STATOR: GeometryFile, "plate": PlateFile, "beam": BeamFile, "tube": TubeFile})
+KINDS: Mapping[
+    str, type[GeometryFile] | type[PlateFile] | type[BeamFile] | type[TubeFile] | type[WingFile]
+] = MappingProxyType(
+    {STATOR: GeometryFile, "plate": PlateFile, "beam": BeamFile, "tube": TubeFile, "wing": WingFile}
 )
-_KINDS_TO_COME = ("wing",)
 
 
 def read_object(path: Path) -> ObjectFile:
@@ -61,9 +63,5 @@ def _kind(path: Path, table: Mapping[str, Any]) -> str:
     kind = table.get("kind", STATOR)
     if isinstance(kind, str) and kind in KINDS:
         return kind
-    if kind in _KINDS_TO_COME:
-        raise input_error(
-            path, "kind", f"{quoted(kind)} cannot be computed yet", f"use one of {', '.join(KINDS)}"
-        )
     remedy = hint(kind, KINDS) if isinstance(kind, str) else f"use {' or '.join(KINDS)}"
     raise input_error(path, "kind", f"{quoted(kind)} is not one of {', '.join(KINDS)}", remedy)

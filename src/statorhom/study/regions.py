@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Literal
 
-Region = Literal["lamination", "winding", "overhang", "frame", "machine", "plate", "beam", "tube"]
+# a wing's regions are its materials, and their names are the user's
+Region = str
 StageKind = Literal["stack", "wound", "impregnated", "framed", "machine", "coupon"]
 Symmetry = Literal["isotropic", "transversely_isotropic", "orthotropic"]
 

@@ -15,9 +15,16 @@ from statorhom.study.modal_tests import ModalTestKeys
 from statorhom.study.regions import REGIONS, Region, StageKind, Symmetry
 from statorhom.study.response_surface import SurfaceKeys
 
+_AS_DICT = PlainSerializer(FrozenMap.plain)
+
+Symmetries = Annotated[Mapping[str, Symmetry], AfterValidator(FrozenMap), _AS_DICT]
+
 
 class ModelKeys(Keys):
-    """``[stages.model]``: symmetries of regions; the overhang is the winding's material by default."""
+    """``[stages.model]``: symmetries of regions; the overhang is the winding's material by default.
+
+    ``wing`` lists a wing's materials.
+    """
 
     lamination: Symmetry | None = None
     winding: Symmetry | None = None
@@ -27,11 +34,13 @@ class ModelKeys(Keys):
     plate: Symmetry | None = None
     beam: Symmetry | None = None
     tube: Symmetry | None = None
+    wing: Symmetries = FrozenMap({})
 
     @property
     def declared(self) -> dict[Region, Symmetry]:
         """The regions that are declared, in the order of fabrication."""
-        return {region: getattr(self, region) for region in REGIONS if getattr(self, region) is not None}
+        named = {region: getattr(self, region) for region in REGIONS if getattr(self, region) is not None}
+        return named | dict(self.wing)
 
 
 class PriorRange(Keys):
@@ -48,8 +57,6 @@ class PriorRange(Keys):
             )
         return self
 
-
-_AS_DICT = PlainSerializer(FrozenMap.plain)
 
 Fixed = Annotated[Mapping[str, Mapping[str, Number]], AfterValidator(FrozenMap), _AS_DICT]
 Tied = Annotated[Mapping[str, tuple[tuple[str, ...], ...]], AfterValidator(FrozenMap), _AS_DICT]

@@ -12,9 +12,12 @@ from statorhom.study.geometry_file import GeometryFile
 from statorhom.study.message import input_error, quoted
 from statorhom.study.modal_table import ModalTable, read_modal_table
 from statorhom.study.modal_tests import ModalTestKeys
+from statorhom.study.nearest import hint
 from statorhom.study.object_file import STATOR, ObjectFile, read_object, stator_file
 from statorhom.study.regions import COUPON
+from statorhom.study.stages import StageKeys
 from statorhom.study.study_file import StudyFile, read_study_file
+from statorhom.study.wing_file import WingFile
 
 # The lamination needs no section of its own: [core] describes it.
 _SECTION_OF: Mapping[str, str] = FrozenMap({"winding": "winding", "frame": "frame", "machine": "machine"})
@@ -109,14 +112,30 @@ def _check_kind(path: Path, study: StudyFile, drawing: ObjectFile, geometry_path
             f"is {stage.kind}, but {geometry_path} describes a {drawing.kind}",
             "a coupon's one stage has kind = \"coupon\", a stator's stages those of its fabrication",
         )
-    other = [region for region in stage.model.declared if stage.kind == COUPON and region != drawing.kind]
-    if other:
-        raise input_error(
-            path,
-            f"stages[{stage.name}].model.{other[0]}",
-            f"{geometry_path} describes a {drawing.kind}",
-            f"declare {drawing.kind} instead",
-        )
+    if stage.kind == COUPON:
+        _check_coupon_regions(path, stage, drawing, geometry_path)
+
+
+def _check_coupon_regions(path: Path, stage: StageKeys, drawing: ObjectFile, geometry_path: Path) -> None:
+    """A coupon's region is named after its kind; a wing's are its materials, and each needs a symmetry."""
+    of_wing = isinstance(drawing, WingFile)
+    needed = drawing.wing.materials if isinstance(drawing, WingFile) else (drawing.kind,)
+    table = f"stages[{stage.name}].model"
+    home = f"{table}.wing" if of_wing else table
+    for region in stage.model.declared:
+        if region not in needed:
+            where = home if region in stage.model.wing else table
+            what = f"a wing of {', '.join(needed)}" if of_wing else f"a {drawing.kind}"
+            remedy = hint(region, needed) if of_wing else f"declare {drawing.kind} instead"
+            raise input_error(path, f"{where}.{region}", f"{geometry_path} describes {what}", remedy)
+    for region in needed:
+        if region not in stage.model.declared:
+            raise input_error(
+                path,
+                f"{home}.{region}",
+                f"is missing, but {geometry_path} has it",
+                'declare it "isotropic" or of another symmetry',
+            )
 
 
 def _check_sections(path: Path, study: StudyFile, geometry: GeometryFile, geometry_path: Path) -> None:

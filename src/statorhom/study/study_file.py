@@ -128,7 +128,8 @@ def _check_coupon(study: StudyFile) -> None:
     if not stage.model.declared:
         regions = " or ".join(REGIONS_OF_KIND[COUPON])
         raise ValueError(
-            f'stages[{stage.name}].model: nothing is declared; say {regions} = "isotropic" (or another symmetry)'
+            f'stages[{stage.name}].model: nothing is declared; say {regions} = "isotropic" (or another symmetry), '
+            "or list a wing's materials in [stages.model.wing]"
         )
     for test in stage.tests:
         if test.support != FREE:

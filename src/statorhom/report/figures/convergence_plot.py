@@ -8,7 +8,7 @@ import matplotlib as mpl
 from matplotlib.colors import to_hex
 from matplotlib.lines import Line2D
 
-from statorhom.report.figures.canvas import FONT_PT, INK, new_figure, svg, tidy
+from statorhom.report.figures.canvas import FONT_PT, INK, new_figure, safe, svg, tidy
 from statorhom.results import Convergence
 
 WIDTH_MM = 120.0
@@ -50,7 +50,8 @@ def convergence_plot(series: Sequence[Convergence]) -> bytes:
 
 def _order(mode: Convergence) -> str:
     if mode.order is None:
-        return mode.kind or "no order"
+        # a colour per kind of motion, whatever its nodal lines
+        return safe((mode.kind or "").partition(" (")[0]) or "no name"
     return f"r = {mode.order}"
 
 

@@ -17,6 +17,7 @@ from statorhom.report.figures.canvas import (
     PREDICTED,
     SIMULATED,
     new_figure,
+    safe,
     svg,
     tidy,
 )
@@ -61,7 +62,7 @@ def _draw_ladder(axes: Axes, modes: Sequence[ModeResult], spacing: float) -> Non
             axes.plot([0.0, 1.0], [f, f], color=MEASURED, linewidth=1.6, solid_capstyle="butt")
         if g is not None:
             axes.plot([2.0, 3.0], [g, g], color=_colour(mode), linewidth=1.6, solid_capstyle="butt")
-            labels.append((g, short_name(mode), _colour(mode)))
+            labels.append((g, safe(short_name(mode)), _colour(mode)))
         elif f is not None:
             axes.annotate("no partner", (1.06, f), fontsize=FONT_PT - 1.5, color=PREDICTED, va="center")
         if f is not None and g is not None:
@@ -143,7 +144,7 @@ def _draw_errors(axes: Axes, pairs: Sequence[ModeResult]) -> None:
 
 
 def _row_label(mode: ModeResult) -> str:
-    return f"{short_name(mode)}  {mode.measured_hz:.0f} Hz"
+    return f"{safe(short_name(mode))}  {mode.measured_hz:.0f} Hz"
 
 
 def _legend(axes: Axes, shown: Sequence[ModeResult]) -> None:

@@ -18,7 +18,7 @@ from statorhom.report.document import (
     strong,
     text,
 )
-from statorhom.report.wording import NOTHING, step_words
+from statorhom.report.wording import NOTHING, WING, step_words
 from statorhom.results import Results
 
 _OF_MASSES = "kg"  # a warning that names a weight or a density concerns this section
@@ -28,7 +28,10 @@ _UNITS = {"mm": "mm", "deg": "°", "kg": "kg", "m3": "m³", "m": "m", "hz": "Hz"
 def masses(results: Results, steps: Sequence[Step]) -> Section:
     """Table of weights and densities, the warnings about them, and the machine's dimensions."""
     lead = text(
-        "The weight, divided by the volume in the model, is the mean density; “±” is one standard deviation, "
+        "The weight gives the one density that the geometry file leaves open, or scales all of them; “±” is one "
+        "standard deviation, which comes from the weighing."
+        if coupon_of(steps) == WING
+        else "The weight, divided by the volume in the model, is the mean density; “±” is one standard deviation, "
         "which comes from the weighing."
         if coupon_of(steps) is not None
         else "After every step the stator was weighed. What a step added, divided by the volume it fills in the "
@@ -81,7 +84,7 @@ def _rows(step: Step) -> list[Row]:
 def _density(value: float | None, deviation: float | None) -> Text:
     if value is None:
         return text(muted("not determined"))
-    return text(f"{value:.0f}" if deviation is None else f"{value:.0f} ± {deviation:.0f}")
+    return text(f"{value:.0f}" if not deviation else f"{value:.0f} ± {deviation:.0f}")
 
 
 def _dimensions(results: Results) -> Table:

@@ -25,7 +25,9 @@ from statorhom.report.document import (
 from statorhom.report.figures.interval_bar import interval_bar
 from statorhom.report.wording import (
     AXES_OF_BLOCKS,
+    AXES_OF_PLIES,
     AXES_OF_ROUND,
+    WING,
     constant_interval,
     constant_meaning,
     constant_symbol,
@@ -34,7 +36,6 @@ from statorhom.report.wording import (
     symmetry_words,
 )
 from statorhom.results import Constant, FitSummary, RegionResult, StageResult
-from statorhom.study.regions import COUPON
 
 _VOIGT = ((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))
 _STATUS: dict[str, Span] = {
@@ -47,7 +48,7 @@ _STATUS: dict[str, Span] = {
 def materials(steps: Sequence[Step]) -> Section:
     """Table of constants per step and region, Hooke's matrix on demand."""
     lead = text(
-        "Every region of the stator" if (coupon := coupon_of(steps)) is None else f"The {coupon}",
+        _lead_subject(coupon_of(steps)),
         " is treated as one homogeneous material with the constants below; with "
         "90 % probability the true constant lies in the interval. A constant is ",
         Span("determined by the data", "good"),
@@ -67,6 +68,12 @@ def materials(steps: Sequence[Step]) -> Section:
     return Section("Materials", tuple(blocks))
 
 
+def _lead_subject(coupon: str | None) -> str:
+    if coupon == WING:
+        return "Every material of the wing"
+    return "Every region of the stator" if coupon is None else f"The {coupon}"
+
+
 def _has_news(step: Step) -> bool:
     return bool(step.new_constants) or step.result.fit is not None
 
@@ -79,7 +86,7 @@ def _step(step: Step) -> list[Block]:
     new = step.new_regions
     for name, region in result.regions.items():
         if name in new and region.engineering:
-            blocks += _region(result, name, region)
+            blocks += _region(step, name, region)
     kept = [name for name, region in result.regions.items() if name not in new and region.engineering]
     if kept:
         blocks.append(Paragraph(text(f"As found in the step before: {', '.join(kept)}."), "note"))
@@ -88,8 +95,8 @@ def _step(step: Step) -> list[Block]:
     return [Paragraph(text(f"Step {result.name}"), "heading"), *blocks]
 
 
-def _region(stage: StageResult, name: str, region: RegionResult) -> list[Block]:
-    axes = AXES_OF_BLOCKS if stage.kind == COUPON and name != "tube" else AXES_OF_ROUND
+def _region(step: Step, name: str, region: RegionResult) -> list[Block]:
+    stage, axes = step.result, _axes(step)
     symmetry = f", {symmetry_words(region.symmetry, axes)}" if region.symmetry else ""
     head = Paragraph(text(strong(name), symmetry), "subheading")
     columns = (
@@ -104,6 +111,13 @@ def _region(stage: StageResult, name: str, region: RegionResult) -> list[Block]:
     if region.hooke_pa is not None:
         blocks.append(_hooke(name, region.hooke_pa, axes))
     return blocks
+
+
+def _axes(step: Step) -> tuple[str, str, str]:
+    """What the material's axes are called; a wing's plies have their own."""
+    if step.coupon == WING:
+        return AXES_OF_PLIES
+    return AXES_OF_BLOCKS if step.is_block else AXES_OF_ROUND
 
 
 def _row(stage: StageResult, region_name: str, region: RegionResult, key: str, c: Constant) -> Row:

@@ -22,7 +22,7 @@ from statorhom.report.figures.block_picture import DrawnBlock
 from statorhom.report.figures.convergence_plot import WIDTH_MM as PLOT_WIDTH_MM
 from statorhom.report.figures.convergence_plot import convergence_plot
 from statorhom.report.figures.mesh_picture import WIDTH_MM, mesh_picture
-from statorhom.report.wording import constant_symbol, constant_value, frequency, mode_name
+from statorhom.report.wording import WING, constant_symbol, constant_value, frequency, mode_name
 from statorhom.results import Convergence, FitSummary, StageResult
 
 _LEAST_SHOWN_PERCENT = 1e-3
@@ -45,6 +45,10 @@ def mesh(steps: Sequence[Step]) -> Section:
 
 def _part(steps: Sequence[Step]) -> str:
     """What is meshed."""
+    if coupon_of(steps) == WING:
+        return (
+            "The right half of the wing is meshed; its modes are symmetric or antisymmetric about the middle."
+        )
     if are_blocks(steps):
         return "An eighth of the body is meshed; the modes are sorted by their symmetry about its three middle planes."
     what = "of a slot pitch" if coupon_of(steps) is None else "of a sector"

@@ -20,6 +20,7 @@ from statorhom.report.document import (
 )
 from statorhom.report.figures.mode_comparison import error_half_width
 from statorhom.report.wording import (
+    WING,
     constant_interval,
     constant_symbol,
     constant_value,
@@ -66,8 +67,8 @@ def _subject(steps: Sequence[Step]) -> str:
     coupon = coupon_of(steps)
     if coupon is not None:
         return (
-            f"This report describes how the material of a {coupon} was found from its weight and its "
-            "measured modes. "
+            f"This report describes how {'the materials' if coupon == WING else 'the material'} of a {coupon} "
+            f"{'were' if coupon == WING else 'was'} found from its weight and its measured modes. "
         )
     return (
         "This report describes how the materials of a stator were found from its weight and its measured "
@@ -85,7 +86,7 @@ def _masses(step: Step) -> Text:
     densities = [
         text(
             f"{name} {region.density_kg_m3:.0f}",
-            f" ± {region.density_sd_kg_m3:.0f}" if region.density_sd_kg_m3 is not None else "",
+            f" ± {region.density_sd_kg_m3:.0f}" if region.density_sd_kg_m3 else "",
             " kg/m³",
         )
         for name, region in step.new_regions.items()
