@@ -47,7 +47,7 @@ from statorhom.diagnose.resampling import stability
 from statorhom.diagnose.scan import Scan, rescanned, scan
 from statorhom.diagnose.simpler import by_criterion, simpler_fits
 from statorhom.diagnose.single_effects import WORTH, single_effects
-from statorhom.geometry.block import BlockGeometry
+from statorhom.geometry.stator import StatorGeometry
 from statorhom.geometry.tested_object import ObjectGeometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.settings import Settings
@@ -98,7 +98,7 @@ def diagnose(
     """
     began = time.perf_counter()
     with threadpool_limits(limits=1, user_api="blas"), one_line_errors(str(files.path)):
-        approach = BODY if isinstance(geometry, BlockGeometry) else RING
+        approach = RING if isinstance(geometry, StatorGeometry) else BODY
         found = _find(approach, files, geometry, tests, settings, announce)
         undecided = found.verdict == "ambiguous"
         choice = (

@@ -62,8 +62,7 @@ def _pictures(
     plan = plan_of(files)
     if plan is None:
         return {}
-    length, width = 1e3 * plan.length, 1e3 * plan.width
-    return {"plan": PlanRow(outline_mm=((0.0, 0.0), (length, 0.0), (length, width), (0.0, width)))}
+    return {"plan": PlanRow(outline_mm=tuple((1e3 * x, 1e3 * y) for x, y in plan.outline))}
 
 
 def _located(explanation: Explanation, number: int) -> Any:

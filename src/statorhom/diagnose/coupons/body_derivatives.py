@@ -104,7 +104,8 @@ class _Terms:
         for region, terms in self.stiffness.items():
             change = hooke_coefficients(after[region].hooke) - hooke_coefficients(before[region].hooke)
             K += np.tensordot(change, terms, axes=1)
-            M += (after[region].density - before[region].density) * self.mass[region]
+        for region, term in self.mass.items():
+            M += (after[region].density - before[region].density) * term
         log_f = told.log_f + mesh * told.shared
         if not K.any() and not M.any():
             return replace(told, log_f=log_f)

@@ -23,7 +23,7 @@ SHAPE_PART = 0.05
 UNEVEN = (
     1.5e-3  # relative stiffness by which no body is as even as its model: neighbours in frequency mix by it
 )
-BLURRED = 0.3  # standard deviation of an amplitude that says nothing
+NEIGHBOURS = 8  # modes of the declared body, the nearest in frequency, whose amplitudes tell most
 
 
 def body_features(
@@ -73,10 +73,17 @@ def _shape(
         noise**2 + SHAPE_OWN**2 + (SHAPE_PART * seen) ** 2 + _mixing(stage, test, number, len(W)) ** 2
     )
     return [
-        Feature("shape", test.name, key, float(a), float(b), float(s))
-        for a, b, s in zip(seen, model, sd, strict=True)
-        if s < BLURRED
+        Feature("shape", test.name, key, float(seen[i]), float(model[i]), float(sd[i]))
+        for i in _nearest(stage, test, number, len(W))
     ]
+
+
+def _nearest(stage: BodyStage, test: MeasuredTest, number: int, count: int) -> list[int]:
+    """Numbers of the reference's modes that a measured one may be mixed with, itself included."""
+    basis = stage.body.basis
+    first = min(basis.rigid, count)
+    away = np.abs(np.log(basis.reference_hz[first:count] / test.modes[number].frequency_hz))
+    return sorted((first + np.argsort(away)[: NEIGHBOURS + 1]).tolist())
 
 
 def _mixing(stage: BodyStage, test: MeasuredTest, number: int, count: int) -> FloatArray:

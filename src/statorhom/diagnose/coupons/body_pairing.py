@@ -16,6 +16,8 @@ from statorhom.modes.pairing import pair
 FloatArray = npt.NDArray[np.float64]
 Partners = tuple[int | None, ...]
 
+# of ln f where shapes were seen: beside unknown constants, and beside known ones
+FAR_SD, NEAR_SD = 0.3, 0.06
 GATE = 10.0  # in units of PAIRING_SD
 UNLIKE = 50.0  # cost of a pair whose shapes are at right angles
 ALONE = 60.0  # of a measured mode without a partner, where shapes were seen
@@ -41,7 +43,7 @@ def body_partners(test: MeasuredTest, predicted: PredictedBody, *, by_rank: bool
     by_rank : of the same rank among the visible ones, however far away: the constants are not known yet.
     """
     if test.points is not None:
-        return _by_shape(test, predicted)
+        return _by_shape(test, predicted, FAR_SD if by_rank else NEAR_SD)
     if by_rank:
         return _by_rank(test, predicted)
     lines = [
@@ -59,10 +61,10 @@ def _by_rank(test: MeasuredTest, predicted: PredictedBody) -> Partners:
     return tuple(visible[i] if i < len(visible) else None for i in range(len(test.modes)))
 
 
-def _by_shape(test: MeasuredTest, predicted: PredictedBody) -> Partners:
+def _by_shape(test: MeasuredTest, predicted: PredictedBody, log_sd: float) -> Partners:
     assert test.points is not None and predicted.motion is not None
     measured = np.log([mode.frequency_hz for mode in test.modes])
-    away = (measured[:, None] - predicted.log_f[None, :]) / PAIRING_SD
+    away = (measured[:, None] - predicted.log_f[None, :]) / log_sd
     cost = away**2 + UNLIKE * (1.0 - alike(test.points.motion, predicted.motion.T))
     table = np.hstack([cost, np.full((len(measured), len(measured)), ALONE)])
     _, columns = linear_sum_assignment(table)

@@ -6,71 +6,79 @@ from dataclasses import replace
 from itertools import product
 
 import numpy as np
+import numpy.typing as npt
 
 from statorhom.diagnose.coupons.body_hypothesis import BodyHypothesis
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.refit import Refit, refit_objective
 from statorhom.errors import StatorhomError
+from statorhom.physics.plan import Plan, plan_of
 from statorhom.results.diagnosis import PlanLocation
 
+FloatArray = npt.NDArray[np.float64]
+
 ALIKE = 6.0  # of the objective: places that differ by less are not told apart (1 : 20)
+STEP = 1e-3  # of internal coordinates
 
 
 def body_located(explanation: Explanation[BodyHypothesis], number: int) -> PlanLocation | None:
     """Location of one of the explanation's effects; None where it has none."""
-    candidate = explanation.candidates[number]
-    if not any(p.located for p in candidate.parameters):
-        return None
     r = explanation.refit
-    values, sd = r.hypothesis.effect_values(r.z)[number], _deviations(r, number)
+    plan = plan_of(r.hypothesis.study.files)
+    at = _coordinates(r, number)
+    if plan is None or not at:
+        return None
+    place = _place(r, plan, number, r.z)
+    slopes = np.array(
+        [(_place(r, plan, number, r.z + STEP * e) - place) / STEP for e in np.eye(len(r.z))[at]]
+    )
+    sd = np.sqrt(np.maximum(np.diag(slopes.T @ r.covariance[np.ix_(at, at)] @ slopes), 0.0))
     return PlanLocation(
-        x_mm=1e3 * values["x_m"],
-        x_sd_mm=1e3 * sd["x_m"],
-        y_mm=1e3 * values["y_m"],
-        y_sd_mm=1e3 * sd["y_m"],
-        place_ambiguity_mm=_alike(r, number),
+        x_mm=1e3 * float(place[0]),
+        x_sd_mm=1e3 * float(sd[0]),
+        y_mm=1e3 * float(place[1]),
+        y_sd_mm=1e3 * float(sd[1]),
+        place_ambiguity_mm=_alike(r, plan, number),
     )
 
 
-def _deviations(r: Refit[BodyHypothesis], number: int) -> dict[str, float]:
-    found = {}
-    for k, (i, j) in enumerate(r.hypothesis.parameters):
-        parameter = r.hypothesis.candidates[i].parameters[j]
-        if i == number and parameter.located:
-            unit = (parameter.upper - parameter.lower) / np.sqrt(12)
-            at = r.hypothesis.constants + k
-            found[parameter.name] = float(unit * np.sqrt(max(r.covariance[at, at], 0.0)))
-    return found
+def _coordinates(r: Refit[BodyHypothesis], number: int) -> list[int]:
+    """Of an effect's place in the vector."""
+    h = r.hypothesis
+    return [
+        h.constants + k
+        for k, (i, j) in enumerate(h.parameters)
+        if i == number and h.candidates[i].parameters[j].located
+    ]
 
 
-def _alike(r: Refit[BodyHypothesis], number: int) -> tuple[tuple[float, float], ...]:
+def _place(r: Refit[BodyHypothesis], plan: Plan, number: int, z: FloatArray) -> FloatArray:
+    return np.array(plan.on_top(r.hypothesis.effect_values(z)[number])[:2])
+
+
+def _alike(r: Refit[BodyHypothesis], plan: Plan, number: int) -> tuple[tuple[float, float], ...]:
     """The place and its mirror images that the data do not tell from it, all effects mirrored together."""
-    found = []
-    for flips in product((False, True), repeat=2):
-        z = r.z.copy()
-        place = {}
-        for k, (i, j) in enumerate(r.hypothesis.parameters):
-            parameter = r.hypothesis.candidates[i].parameters[j]
-            at = r.hypothesis.constants + k
-            flipped = {"x_m": flips[0], "y_m": flips[1]}.get(parameter.name, False)
-            value = parameter.value(float(z[at]))
-            if flipped and not _mirrors_itself(r, i, parameter.name):
-                value = parameter.lower + parameter.upper - value
-                z[at] = parameter.internal(value)
-            if i == number:
-                place[parameter.name] = value
+    found: list[tuple[float, float]] = []
+    for flips in product((False, True), repeat=len(plan.mirrored)):
+        names = {name for name, flipped in zip(plan.mirrored, flips, strict=True) if flipped}
+        z = _mirrored(r, plan, names)
         try:
             worse = refit_objective(replace(r.hypothesis, held=None), z) - r.objective
         except StatorhomError:
             continue
-        pair = (round(1e3 * place["x_m"], 3), round(1e3 * place["y_m"], 3))
-        if (worse < ALIKE or not any(flips)) and pair not in found:
-            found.append(pair)
+        x, y = (1e3 * _place(r, plan, number, z)).round(3).tolist()
+        if (worse < ALIKE or not names) and (x, y) not in found:
+            found.append((x, y))
     return tuple(found)
 
 
-def _mirrors_itself(r: Refit[BodyHypothesis], number: int, name: str) -> bool:
-    """Whether an effect that is at x is at its mirror image too: springs on both sides."""
-    parameter = next(p for p in r.hypothesis.candidates[number].parameters if p.name == name)
-    whole = max(p.upper for c in r.hypothesis.candidates for p in c.parameters if p.name == name)
-    return parameter.upper < 0.75 * whole
+def _mirrored(r: Refit[BodyHypothesis], plan: Plan, names: set[str]) -> FloatArray:
+    """The vector with some coordinates of all places mirrored; what stands on both sides is its own image."""
+    whole = plan.places()
+    z = r.z.copy()
+    for k, (i, j) in enumerate(r.hypothesis.parameters):
+        p = r.hypothesis.candidates[i].parameters[j]
+        at = r.hypothesis.constants + k
+        if p.name in names and p in whole:
+            z[at] = p.internal(p.lower + p.upper - p.value(float(z[at])))
+    return z

@@ -52,10 +52,15 @@ class BodyStudy:
         for action in actions:
             weighed = action.masses.get(setup.keys.name, weighed)
         x, y, z = self.scale(actions)
-        share = weighed / setup.keys.mass_kg / (x * y * z)
+        more = (weighed - setup.keys.mass_kg) / setup.keys.mass_sd_kg
         own = self.constants.stage_values(values, setup.index)
         sources = {region.source for region in setup.materials.regions}
-        dense = {f"{s}.{DENSITY}": share * setup.densities[s].density_kg_m3 for s in sources}
+        # a density's standard deviation is the weight's, per volume that takes up what the weight changes by
+        dense = {
+            f"{s}.{DENSITY}": (d.density_kg_m3 + more * d.density_sd_kg_m3) / (x * y * z)
+            for s, d in setup.densities.items()
+            if s in sources
+        }
         return setup.materials.of(own | dense)
 
     def scale(self, actions: Sequence[Action]) -> Scale:

@@ -52,8 +52,10 @@ def element_energy(
     mesh = model.mesh
     k = shapes.shape[1]
     moved = shapes.reshape(-1, 3, k)
-    energy = np.empty((len(mesh.elements), k, k))
+    energy = np.zeros((len(mesh.elements), k, k))
     for number, region in enumerate(mesh.regions):
+        if region not in model.stiffness:
+            continue  # lumps have no elements
         entries = hooke_coefficients(materials[region].hooke)
         for cells, geometry in chunks(mesh, number, FRAMES[mesh.axes]):
             blocks = stiffness_blocks(geometry, mesh.cell_axes(cells))

@@ -92,9 +92,9 @@ class ModalBody:
         factors, inertia = hooke_factors(scale), mass_factors(scale)
         K, M = np.zeros((self.size, self.size)), np.zeros((self.size, self.size))
         for region, terms in self.stiffness.items():
-            material = materials[region]
-            K += np.tensordot(factors * hooke_coefficients(material.hooke), terms, axes=1)
-            M += np.tensordot(material.density * inertia, self.mass[region], axes=1)
+            K += np.tensordot(factors * hooke_coefficients(materials[region].hooke), terms, axes=1)
+        for region, terms in self.mass.items():
+            M += np.tensordot(materials[region].density * inertia, terms, axes=1)
         return K, M
 
 
@@ -231,6 +231,7 @@ def _projected(
     for region in model.stiffness:
         terms = [shapes.T @ (model.stiffness_term(region, q) @ shapes) for q in range(len(HOOKE_ENTRIES))]
         stiffness[region] = copies * np.where(same, np.stack(terms), 0.0)
+    for region in model.mass:
         M = model.mass_term(region)
         along = []
         for axis in range(3):

@@ -49,8 +49,9 @@ class LocalStiffness(Effect):
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
         plan = plan_of(files)
         if plan is not None:
-            radii = (SPREAD * plan.length, SPREAD * plan.width)
-            patch = Patch((values["x_m"], values["y_m"]), radii, values["stiffness_ratio"])
+            x, y, _ = plan.on_top(values)
+            radii = (SPREAD * plan.radii[0], SPREAD * plan.radii[1])
+            patch = Patch((x, y), radii, values["stiffness_ratio"])
             return Action(patches=(patch,), stages=frozenset({candidate.stage}))
         depth = DEPTH_SHARE * files.geometry.core.yoke_thickness_mm / 1e3
 
