@@ -247,6 +247,7 @@ def _probabilities(found: Found) -> dict[str, float]:
 def _details(approach: Approach, files: StudyFiles, found: Found, choice: Choice, seconds: float) -> Details:
     best, e = found.best, found.evidence
     effect = library()[best.effects[0]] if best.effects else None
+    words = None if effect is None else effect.words(files)
     seen: dict[str, ScanRow] = {}
     for s in found.scan.signatures:
         c = s.candidate
@@ -258,9 +259,9 @@ def _details(approach: Approach, files: StudyFiles, found: Found, choice: Choice
         adequacy=e.adequacy,
         nothing_adequacy=e.nothing_adequacy,
         stability=e.stability,
-        summary=None if effect is None else effect.summary,
+        summary=None if words is None else words.summary,
         citation=None if effect is None else effect.citation,
-        confusions=() if effect is None else tuple((c.effect, c.separated_by) for c in effect.confused_with),
+        confusions=() if words is None else tuple((c.effect, c.separated_by) for c in words.confused_with),
         features=feature_rows(found.base.refit, best.refit),
         scan=tuple(seen.values())[:20],
         constants=constant_rows(found.base.refit, best.refit),
@@ -269,7 +270,7 @@ def _details(approach: Approach, files: StudyFiles, found: Found, choice: Choice
         simpler=_simpler(found),
         options=choice.options,
         **approach.pictures(files, found.base.refit, best, found.verdict == "named", found.verdict != "none"),
-        summaries=summaries(tuple(dict.fromkeys(n for x in found.explanations for n in x.effects))),
+        summaries=summaries(tuple(dict.fromkeys(n for x in found.explanations for n in x.effects)), files),
     )
 
 

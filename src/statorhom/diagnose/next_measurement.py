@@ -71,7 +71,7 @@ def said_of(best: Explanation, second: Explanation) -> str:
     """What the library says of the two."""
     for a, b in ((best, second), (second, best)):
         for name in a.effects:
-            for confusion in library()[name].confused_with:
+            for confusion in library()[name].words(a.refit.hypothesis.study.files).confused_with:
                 if confusion.effect in b.effects:
                     return confusion.separated_by
     return "repeat the test with more points"

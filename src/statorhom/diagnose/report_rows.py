@@ -56,7 +56,7 @@ def effect_results(
                 location=located(explanation, number),
                 parameters=parameters,
                 probability=probability,
-                note=effect.note,
+                note=effect.words(r.hypothesis.study.files).note,
             )
         )
     return tuple(found)

@@ -10,7 +10,7 @@ from statorhom.model.broken.attachments import footed_lump
 from statorhom.model.broken.change import Change
 from statorhom.physics.action import Action, Attachment
 from statorhom.physics.candidate import Candidate
-from statorhom.physics.effect import Confusion, Effect
+from statorhom.physics.effect import Confusion, Effect, Words
 from statorhom.physics.parameter import EffectParameter, angle, height
 from statorhom.physics.plan import places_on, plan_of
 from statorhom.study.study import StudyFiles
@@ -35,6 +35,17 @@ class AttachedMass(Effect):
     )
     note = (
         "a rigid cube on a square foot 1.5 times as wide as its centre of gravity is high, not on the scale"
+    )
+
+    coupon_words = Words(
+        "a lump on the body is not in the model",
+        "a point mass on the upper face, not on the scale",
+        (
+            Confusion(
+                "local_stiffness", "shapes at more points near the place; frequencies rise at a stiffer patch"
+            ),
+            Confusion("suspension_stiffness", "the shift falls with the frequency squared"),
+        ),
     )
 
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:

@@ -12,7 +12,7 @@ from statorhom.model.broken.change import Change
 from statorhom.model.broken.variations import strip
 from statorhom.physics.action import Action, Patch, Training
 from statorhom.physics.candidate import Candidate
-from statorhom.physics.effect import Confusion, Effect
+from statorhom.physics.effect import Confusion, Effect, Words
 from statorhom.physics.parameter import EffectParameter, angle
 from statorhom.physics.pieces import region_pieces
 from statorhom.physics.plan import plan_of
@@ -36,6 +36,12 @@ class LocalStiffness(Effect):
         Confusion("ovality", "several orders r split"),
     )
     note = "modulus of an axial strip of the yoke, 10° wide and half the yoke deep, over that of the core"
+
+    coupon_words = Words(
+        "a part of the body is stiffer or softer: a flaw, a repair, an uneven thickness",
+        f"stiffness at the middle of a patch that fades out over {SPREAD:.0%} of the body's sides, over the declared one",
+        (Confusion("attached_mass", "shapes at more points near the place"),),
+    )
 
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         stages = [stage.name for stage in files.study.stages if stage.tests]

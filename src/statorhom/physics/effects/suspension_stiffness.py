@@ -12,7 +12,7 @@ from statorhom.model.broken.attachments import point_springs
 from statorhom.model.broken.change import Change
 from statorhom.physics.action import Action, Attachment
 from statorhom.physics.candidate import Candidate
-from statorhom.physics.effect import Confusion, Effect
+from statorhom.physics.effect import Confusion, Effect, Words
 from statorhom.physics.parameter import EffectParameter, angle
 from statorhom.physics.plan import places_on, plan_of
 from statorhom.study.study import StudyFiles
@@ -31,6 +31,12 @@ class SuspensionStiffness(Effect):
         Confusion("local_stiffness", "the split falls with the frequency squared"),
     )
     note = "two radial springs on one axial line of the back of the core, near its ends; stiffness of both together"
+
+    coupon_words = Words(
+        "a test that is declared free hangs on something stiff",
+        "two equal springs across the body, at the place and at its mirror image about the middle; stiffness of both",
+        (Confusion("local_stiffness", "the shift falls with the frequency squared"),),
+    )
 
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         return tuple(

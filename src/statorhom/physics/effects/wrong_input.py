@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
-from statorhom.physics.effect import Confusion, Effect
+from statorhom.physics.effect import Confusion, Effect, Words
 from statorhom.physics.parameter import EffectParameter
 from statorhom.physics.plan import plan_of
 from statorhom.study.study import StudyFiles
@@ -30,6 +30,15 @@ class WrongInput(Effect):
     confused_with = (
         Confusion("temperature_shift", "weighing and measuring again"),
         Confusion("loose_winding_mass", "weighing again"),
+    )
+
+    coupon_words = Words(
+        "a mass or a dimension in the files contradicts the recordings",
+        None,
+        (
+            Confusion("wrong_input", "weighing and measuring the body again"),
+            Confusion("attached_mass", "shapes: a lump turns them, a wrong weight does not"),
+        ),
     )
 
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
