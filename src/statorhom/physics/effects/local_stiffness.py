@@ -39,7 +39,7 @@ class LocalStiffness(Effect):
 
     coupon_words = Words(
         "a part of the body is stiffer or softer: a flaw, a repair, an uneven thickness",
-        f"stiffness at the middle of a patch that fades out over {SPREAD:.0%} of the body's sides, over the declared one",
+        f"stiffness at the middle of a patch that fades over {SPREAD:.0%} of the body's sides, over the declared one",
         (Confusion("attached_mass", "shapes at more points near the place"),),
     )
 
