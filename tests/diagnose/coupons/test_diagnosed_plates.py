@@ -4,8 +4,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
 from body_studies import MASS_KG, write_plate
+
 from concealed_coupons import Hidden, plate_frequencies
 from statorhom import Study
 from statorhom.results.diagnosis import Diagnosis, Estimated, PlanLocation

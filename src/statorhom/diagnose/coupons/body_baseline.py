@@ -24,7 +24,10 @@ from statorhom.identify.settings import Settings
 from statorhom.identify.stage_setup import StageSetup, stage_setup
 from statorhom.model.affine import Materials
 from statorhom.physics.declared import declared_effects
+from statorhom.physics.plan import plan_of
+from statorhom.study.message import input_error
 from statorhom.study.study import StudyFiles
+from statorhom.study.study_file import FREE
 
 FloatArray = npt.NDArray[np.float64]
 BodyRefit = Refit[BodyHypothesis]
@@ -43,14 +46,20 @@ def body_baseline(
     Raises
     ------
     IdentificationError
-        If the study has no test.
+        If the study has no free test.
+    InputFileError
+        If the body is a tube.
     StatorhomError
         If files, masses or tests do not allow it.
     """
+    if plan_of(files) is None:
+        raise input_error(
+            files.geometry_path, "kind", f"a {files.drawing.kind} cannot be diagnosed yet", "use fit or run"
+        )
     setup = stage_setup(files, geometry, 0)
-    own = [tests[t.name] for t in setup.tests if t.name in tests]
+    own = [tests[t.name] for t in setup.tests if t.name in tests and t.support == FREE]
     if not own:
-        raise IdentificationError(f"{files.path}: no stage has a test; there is nothing to diagnose")
+        raise IdentificationError(f"{files.path}: no stage has a free test; there is nothing to diagnose")
     constants = study_constants([setup], (), SCATTER_SD)
     effects = tuple(d.action for d in declared_effects(files))
     study = BodyStudy(files, constants, (), effects)

@@ -112,7 +112,7 @@ def body_stage(
     Raises
     ------
     IdentificationError
-        If the body has no planes of symmetry that the basis could be made of.
+        If the body's mesh has no planes of symmetry that the basis could be made of.
     """
     assert setup.step is not None
     series = MeshSeries(setup.step, settings.density, (1.0, FINER))
