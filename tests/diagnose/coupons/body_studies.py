@@ -46,5 +46,5 @@ def plate_hypothesis(folder: Path, frequencies: np.ndarray) -> BodyHypothesis:
     study = BodyStudy(files, constants)
     materials = study.materials(setup, constants.values(np.zeros(len(constants))))
     test = MeasuredTest(0, "free", "free", files.tables["free"].modes)
-    stage = body_stage(setup, [test], [materials], Settings())
+    stage = body_stage(setup, [test], [materials], Settings(), frozenset({"plate"}))
     return BodyHypothesis(study.with_stages((with_reference(stage, materials, mesh_known=True),)))

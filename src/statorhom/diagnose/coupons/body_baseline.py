@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.diagnose.baseline import SAME_HZ, SNAPSHOTS, new_constants
-from statorhom.diagnose.constants import study_constants
+from statorhom.diagnose.constants import Constants, study_constants
 from statorhom.diagnose.coupons.body_hypothesis import BodyHypothesis
 from statorhom.diagnose.coupons.body_stage import body_stage, with_reference
 from statorhom.diagnose.coupons.body_study import BodyStudy
@@ -52,7 +52,8 @@ def body_baseline(
     StatorhomError
         If files, masses or tests do not allow it.
     """
-    if plan_of(files) is None:
+    plan = plan_of(files)
+    if plan is None:
         raise input_error(
             files.geometry_path, "kind", f"a {files.drawing.kind} cannot be diagnosed yet", "use fit or run"
         )
@@ -63,15 +64,30 @@ def body_baseline(
     constants = study_constants([setup], (), SCATTER_SD)
     effects = tuple(d.action for d in declared_effects(files))
     study = BodyStudy(files, constants, (), effects)
-    trials = trials_around(np.zeros(len(constants)), new_constants(constants, setup), settings.seed)
-    snapshots = _snapshots(study, setup, trials)
-    study = study.with_stages((body_stage(setup, own, snapshots, settings),))
+    places = new_constants(constants, setup)
+    trials = trials_around(np.zeros(len(constants)), places, settings.seed)
+    snapshots = _snapshots(study, setup, trials, min(SNAPSHOTS, 1 + len(places)))
+    # other dimensions are other Hooke entries
+    varied = (
+        frozenset(r.region for r in setup.materials.regions)
+        if plan.typed
+        else varied_regions(constants, setup)
+    )
+    study = study.with_stages((body_stage(setup, own, snapshots, settings, varied),))
     found, *others = optima(BodyHypothesis(study), trials)
     found = _settled(found)
     return evaluated(found.hypothesis, found.z), tuple(r.z for r in others)
 
 
-def _snapshots(study: BodyStudy, setup: StageSetup, points: Sequence[FloatArray]) -> list[Materials]:
+def varied_regions(constants: Constants, setup: StageSetup) -> frozenset[str]:
+    """Regions that have constants to be found."""
+    free = {constants.names[i].partition(":")[2].partition(".")[0] for i in new_constants(constants, setup)}
+    return frozenset(r.region for r in setup.materials.regions if r.source in free)
+
+
+def _snapshots(
+    study: BodyStudy, setup: StageSetup, points: Sequence[FloatArray], most: int
+) -> list[Materials]:
     """Materials of the first points that have any."""
     found: list[Materials] = []
     for z in points:
@@ -79,7 +95,7 @@ def _snapshots(study: BodyStudy, setup: StageSetup, points: Sequence[FloatArray]
             found.append(study.materials(setup, study.constants.values(z), study.effects))
         except StatorhomError:
             continue
-        if len(found) == SNAPSHOTS:
+        if len(found) == most:
             break
     if not found:
         raise IdentificationError(
@@ -113,8 +129,8 @@ def _frequencies(found: BodyRefit) -> FloatArray:
 
 
 def sharpened_body(explanation: Explanation[BodyHypothesis]) -> Explanation[BodyHypothesis]:
-    """An explanation with basis and mesh errors of its own materials."""
+    """An explanation with a basis of its own materials; mesh errors hardly depend on them."""
     try:
-        return replace(explanation, refit=at_own_reference(explanation.refit))
+        return replace(explanation, refit=at_own_reference(explanation.refit, mesh_known=True))
     except (StatorhomError, KeyError):
         return explanation

@@ -86,6 +86,7 @@ class _Terms:
         self.stiffness = {
             r: hooke[:, None, None] * np.stack([v.T @ (K @ v) for K in terms])
             for r, terms in basis.stiffness.items()
+            if len(terms) > 1
         }
         self.mass = {r: v.T @ np.tensordot(inertia, terms, axes=1) @ v for r, terms in basis.mass.items()}
 

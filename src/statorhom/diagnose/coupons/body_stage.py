@@ -64,6 +64,7 @@ class BodyStage:
     tests : what was measured.
     series : its mesh and a finer one.
     body : its modal basis.
+    varied : regions that have unknown constants.
     error : what a finer mesh tells.
     known : the same of the reference's modes.
     """
@@ -72,6 +73,7 @@ class BodyStage:
     tests: tuple[MeasuredTest, ...]
     series: MeshSeries
     body: ActedBody
+    varied: frozenset[str]
     error: MeshError
     known: ReferenceModes
     _projectors: dict[str, FloatArray] = field(default_factory=dict, repr=False)
@@ -105,9 +107,17 @@ class BodyStage:
 
 
 def body_stage(
-    setup: StageSetup, tests: Sequence[MeasuredTest], snapshots: Sequence[Materials], settings: Settings
+    setup: StageSetup,
+    tests: Sequence[MeasuredTest],
+    snapshots: Sequence[Materials],
+    settings: Settings,
+    varied: frozenset[str],
 ) -> BodyStage:
     """A coupon at the first of some materials, good near all of them.
+
+    Parameters
+    ----------
+    varied : regions that have unknown constants.
 
     Raises
     ------
@@ -120,15 +130,26 @@ def body_stage(
     model = series.coarsest
     if not isinstance(model.mesh, MirrorMesh):
         raise IdentificationError(f"{setup.keys.name}: this body cannot be diagnosed yet")
-    body = _body(model, snapshots, top)  # type: ignore[arg-type]
+    body = _body(model, snapshots, top, varied)  # type: ignore[arg-type]
     zeros = np.zeros(len(body.basis.reference_hz))
     return BodyStage(
-        setup, tuple(tests), series, body, MeshError(), ReferenceModes(zeros, zeros, zeros, zeros + 1.0)
+        setup,
+        tuple(tests),
+        series,
+        body,
+        varied,
+        MeshError(),
+        ReferenceModes(zeros, zeros, zeros, zeros + 1.0),
     )
 
 
-def _body(model: AffineModel[MirrorMesh], snapshots: Sequence[Materials], highest_hz: float) -> ActedBody:
-    return ActedBody(model, snapshots[0], modal_body(model, snapshots, highest_hz))
+def _body(
+    model: AffineModel[MirrorMesh],
+    snapshots: Sequence[Materials],
+    highest_hz: float,
+    varied: frozenset[str],
+) -> ActedBody:
+    return ActedBody(model, snapshots[0], modal_body(model, snapshots, highest_hz, varied))
 
 
 def with_reference(
@@ -140,7 +161,7 @@ def with_reference(
     ----------
     mesh_known : the mesh's errors are those that were computed before.
     """
-    body = _body(stage.body.model, [materials, *others], stage.body.basis.highest_hz)
+    body = _body(stage.body.model, [materials, *others], stage.body.basis.highest_hz, stage.varied)
     error = stage.error if mesh_known else _mesh_error(stage.series, body)
     return replace(stage, body=body, error=error, known=_of_reference(error, body), _projectors={})
 

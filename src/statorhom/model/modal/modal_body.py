@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -23,6 +23,9 @@ from statorhom.model.problems import orders_of, spaces_of
 FloatArray = npt.NDArray[np.float64]
 
 WIDE = 2.5  # how far the reference's modes reach beyond the band: lumps and springs bend what lies in it
+EXPECTED = 24  # modes that are asked for first
+MOST = 120  # modes of the reference: local shapes of what is attached stand for the others
+LEAST = 15  # of one combination of parities
 NEAR = 1.3  # and those of other materials
 INDEPENDENT = 1e-5  # relative length below which a vector adds nothing to the basis
 RIGID = 1e-3  # of the band's end: rigid bodies' frequencies are rounding
@@ -37,7 +40,7 @@ class ModalBody:
     mesh : of the part that the body is copied from.
     shapes : (3 n, k) the basis on the part; of unit mass in the whole body at the reference.
     parities : (k,) of every vector.
-    stiffness : region → (9, k, k) per unit Hooke entry.
+    stiffness : region → (9, k, k) per unit Hooke entry; (1, k, k) of one whose material is always the reference's.
     mass : region → (3, k, k) per unit density, of the motion along x, y, z.
     reference : (k, m) modes at the reference, rigid bodies first.
     reference_hz : (m,) their frequencies, 0 of rigid bodies.
@@ -92,7 +95,8 @@ class ModalBody:
         factors, inertia = hooke_factors(scale), mass_factors(scale)
         K, M = np.zeros((self.size, self.size)), np.zeros((self.size, self.size))
         for region, terms in self.stiffness.items():
-            K += np.tensordot(factors * hooke_coefficients(materials[region].hooke), terms, axes=1)
+            entries = factors * hooke_coefficients(materials[region].hooke) if len(terms) > 1 else np.ones(1)
+            K += np.tensordot(entries, terms, axes=1)
         for region, terms in self.mass.items():
             M += np.tensordot(materials[region].density * inertia, terms, axes=1)
         return K, M
@@ -152,7 +156,10 @@ def _couples(matrix: FloatArray, parities: npt.NDArray[np.int_]) -> bool:
 
 
 def modal_body(
-    model: AffineModel[MirrorMesh], snapshots: Sequence[Materials], highest_hz: float
+    model: AffineModel[MirrorMesh],
+    snapshots: Sequence[Materials],
+    highest_hz: float,
+    varied: Collection[str] | None = None,
 ) -> ModalBody:
     """A basis of the modes at some materials; the first ones are the reference.
 
@@ -161,6 +168,7 @@ def modal_body(
     model : of the part.
     snapshots : materials near which the basis shall be good.
     highest_hz : end of the band.
+    varied : regions whose stiffness is not always the reference's; None for all.
     """
     orders = orders_of(model.mesh)
     found = [_parity_basis(model, snapshots, highest_hz, order) for order in orders]
@@ -169,7 +177,9 @@ def modal_body(
     reference = block_diag(*(own for _, own, _ in found))
     hz = np.concatenate([own_hz for _, _, own_hz in found])
     by_frequency = np.argsort(hz, kind="stable")
-    stiffness, mass = _projected(model, shapes, parities)
+    stiffness, mass = _projected(
+        model, shapes, parities, snapshots[0], model.stiffness if varied is None else varied
+    )
     return ModalBody(
         model.mesh,
         shapes,
@@ -194,7 +204,8 @@ def _parity_basis(
             space.project(m) for m in (model.stiffness_matrix(materials), model.mass_matrix(materials))
         )
         if not found:
-            values, y = modes_below(K_p, M_p, WIDE * highest_hz, back_end=sturdy)
+            most = max(LEAST, MOST // len(orders_of(model.mesh)))
+            values, y = modes_below(K_p, M_p, WIDE * highest_hz, EXPECTED, most, back_end=sturdy)
         else:
             # as many as the reference has in the band, wherever they lie at these materials
             inside = int(np.count_nonzero(found[0][1] < (2 * np.pi * NEAR * highest_hz) ** 2))
@@ -222,14 +233,22 @@ def _extended(basis: FloatArray, vectors: FloatArray, M: sp.csr_array) -> FloatA
 
 
 def _projected(
-    model: AffineModel[MirrorMesh], shapes: FloatArray, parities: npt.NDArray[np.int_]
+    model: AffineModel[MirrorMesh],
+    shapes: FloatArray,
+    parities: npt.NDArray[np.int_],
+    reference: Materials,
+    varied: Collection[str],
 ) -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
     """Terms of stiffness and mass of the whole body; different parities do not couple."""
     same = parities[:, None] == parities[None, :]
     copies = model.mesh.copies
     stiffness, mass = {}, {}
     for region in model.stiffness:
-        terms = [shapes.T @ (model.stiffness_term(region, q) @ shapes) for q in range(len(HOOKE_ENTRIES))]
+        if region in varied:
+            parts = (model.stiffness_term(region, q) for q in range(len(HOOKE_ENTRIES)))
+        else:
+            parts = (K for K in [model.region_stiffness(region, reference[region])])
+        terms = [shapes.T @ (K @ shapes) for K in parts]
         stiffness[region] = copies * np.where(same, np.stack(terms), 0.0)
     for region in model.mass:
         M = model.mass_term(region)
