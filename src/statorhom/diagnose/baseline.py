@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.stats import norm, qmc
 
 from statorhom.diagnose.constants import Constants, study_constants
 from statorhom.diagnose.features import SCATTER_SD
@@ -16,6 +15,7 @@ from statorhom.diagnose.prediction import acted_materials, with_rules
 from statorhom.diagnose.refit import Refit, evaluated, refit
 from statorhom.diagnose.stage_model import StageModel, mesh_error, stage_model, with_reference
 from statorhom.diagnose.study_model import StudyModel
+from statorhom.diagnose.valleys import optima, trials_around
 from statorhom.errors import IdentificationError, StatorhomError
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.identify.settings import Settings
@@ -25,12 +25,7 @@ from statorhom.physics.declared import declared_effects
 from statorhom.study.study import StudyFiles
 from statorhom.study.study_file import FREE
 
-# per step: materials that are solved, tried, refitted in wide valleys, and sharpened
-SNAPSHOTS, TRIALS, STARTS, SHARPENED = 6, 200, 16, 3
-APART = 1.0  # prior standard deviations between starts
-BEHIND = 20.0  # of the objective in wide valleys: what stays so far behind is no other optimum worth keeping
-COARSE = 0.03  # discrepancy with which valleys are found
-SPREAD = 1.1  # of the prior: how far materials to try lie apart
+SNAPSHOTS = 6  # materials that are solved per step
 SAME_HZ = 2e-4  # relative: a basis is good enough when a snapshot moves no frequency by more
 ROUNDS = 3
 MAX_SCATTER_ORDER = 8
@@ -102,13 +97,13 @@ def _with_step(
     study: StudyModel, z: np.ndarray, setup: StageSetup, tests: Sequence[MeasuredTest], settings: Settings
 ) -> tuple[StudyModel, np.ndarray, tuple[np.ndarray, ...]]:
     """One more step: its constants from the best of many starts; the other optima."""
-    places = _new_constants(study.constants, setup)
-    trials = _trials(z, places, settings.seed)
+    places = new_constants(study.constants, setup)
+    trials = trials_around(z, places, settings.seed)
     snapshots = _materials(study, setup, trials)[:SNAPSHOTS]
     stage = stage_model(setup, tests, snapshots, settings.density)
     study = study.with_stages((*study.stages, stage))
     # constants of earlier steps stay while new ones are sought
-    found, *others = _optima(study, trials)
+    found, *others = optima(Hypothesis(study), trials)
     for number in range(ROUNDS):
         stage = study.stages[-1]
         materials = acted_materials(study, stage, study.constants.values(found.z), study.effects)
@@ -129,25 +124,14 @@ def _frequencies(stage: StageModel, materials: Materials) -> dict[int, float]:
     return {i: m.frequency_hz for i, m in enumerate(stage.solve(materials).modes[:12])}
 
 
-def _new_constants(constants: Constants, setup: StageSetup) -> list[int]:
+def new_constants(constants: Constants, setup: StageSetup) -> list[int]:
+    """Places of a step's own material constants, those that are not fixed."""
     prefix = f"{setup.keys.name}:"
     return [
         i
         for i, c in enumerate(constants.items)
         if c.name.startswith(prefix) and "." in c.name and c.sd > 1e-6
     ]
-
-
-def _trials(z: np.ndarray, places: Sequence[int], seed: int) -> list[np.ndarray]:
-    """The prior's median and points around it, in the new constants alone."""
-    found = [z]
-    if places:
-        cube = qmc.LatinHypercube(len(places), seed=seed).random(TRIALS)
-        for row in SPREAD * norm.ppf(0.02 + 0.96 * cube):
-            point = z.copy()
-            point[list(places)] = row
-            found.append(point)
-    return found
 
 
 def _materials(study: StudyModel, setup: StageSetup, points: Sequence[np.ndarray]) -> list[Materials]:
@@ -164,47 +148,3 @@ def _materials(study: StudyModel, setup: StageSetup, points: Sequence[np.ndarray
             f"stage {setup.keys.name!r}: no material is possible; check masses and priors"
         )
     return found
-
-
-def _optima(study: StudyModel, trials: Sequence[np.ndarray]) -> list[Refit]:
-    """Different optima, the best first: found in wide valleys, then sharpened."""
-    coarse = Hypothesis(study, discrepancy=COARSE)
-    scored = []
-    for z in trials:
-        try:
-            hypothesis = coarse.paired(z)
-            scored.append((float(np.sum(hypothesis.residuals(z) ** 2) + z @ z) + hypothesis.missed, z))
-        except StatorhomError:
-            continue
-    scored.sort(key=lambda pair: pair[0])
-    wide: list[Refit] = []
-    for z in _apart([z for _, z in scored]):
-        # what promises nothing beside the best so far is not followed
-        worth = min((r.objective for r in wide), default=np.inf) + BEHIND
-        wide += [r] if (r := _refitted(coarse, z, worth)) is not None else []
-    wide.sort(key=lambda r: r.objective)
-    found = [r for w in wide[:SHARPENED] if (r := _refitted(Hypothesis(study), w.z)) is not None]
-    if not found:
-        raise IdentificationError("no start of the declared model could be fitted; check masses and tables")
-    found.sort(key=lambda r: r.objective)
-    chosen: list[Refit] = []
-    for r in found:
-        if all(np.linalg.norm(r.z - other.z) > APART for other in chosen):
-            chosen.append(r)
-    return chosen
-
-
-def _apart(points: Sequence[np.ndarray]) -> list[np.ndarray]:
-    """The first points that are no neighbours of better ones."""
-    chosen: list[np.ndarray] = []
-    for z in points:
-        if len(chosen) < STARTS and all(np.linalg.norm(z - other) > APART for other in chosen):
-            chosen.append(z)
-    return chosen
-
-
-def _refitted(hypothesis: Hypothesis, z: np.ndarray, worth: float = np.inf) -> Refit | None:
-    try:
-        return refit(hypothesis, z, worth=worth)
-    except StatorhomError:
-        return None

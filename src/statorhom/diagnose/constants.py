@@ -121,12 +121,14 @@ def study_constants(
         items.append(_weight(stage, setup.keys.mass_kg, setup.keys.mass_sd_kg))
         if setup.tests:
             space = stage_space(setup.keys, setup.materials, setup.new, setup.densities, Carried(), {})
+            leaders = {n: tie.names[0] for tie in space.ties for n in tie.names[1:]}
             for parameter in space.parameters:
-                if parameter.name == MESH or parameter.name.endswith(DENSITY):
+                if parameter.name == MESH or parameter.name.endswith(DENSITY) or parameter.name in leaders:
                     continue
                 name = f"{stage}:{parameter.name}"
                 known = {k: v for k, v in known.items() if k != parameter.name} | {parameter.name: name}
                 items.append(_constant(name, parameter))
+            known |= {n: known[first] for n, first in leaders.items()}
             items.append(Constant(f"{stage}:mesh", 0.0, 1.0, -5.0, 5.0))
         used = {n for region in setup.materials.regions for n in region.names}
         owners.append({n: known[n] for n in used if n in known})

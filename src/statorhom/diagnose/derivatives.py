@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import singledispatch
 
 import numpy as np
 import numpy.typing as npt
 
+from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.features import Feature
 from statorhom.diagnose.frequency_slopes import by_frequency, slopes_of
 from statorhom.diagnose.hypothesis import Hypothesis
@@ -16,8 +18,28 @@ FloatArray = npt.NDArray[np.float64]
 EFFECT_STEP = 1e-2  # of internal coordinates
 
 
-def jacobian(h: Hypothesis, z: FloatArray) -> FloatArray:
-    """Derivative of the residuals, (features, coordinates)."""
+@singledispatch
+def jacobian(h: AnyHypothesis, z: FloatArray) -> FloatArray:
+    """Derivative of the residuals, (features, coordinates): by differences where nothing better is known."""
+    start = h.features(z)
+    columns = [difference(h, z, j, start) for j in range(len(z))]
+    return np.array(columns).T.reshape(len(start), len(z))
+
+
+def difference(h: AnyHypothesis, z: FloatArray, j: int, start: Sequence[Feature]) -> FloatArray:
+    """One column of it; `start` are the features that are seen."""
+    for sign in (1.0, -1.0):
+        moved = z.copy()
+        moved[j] += sign * EFFECT_STEP
+        try:
+            return slopes_of(start, h.features(moved), sign * EFFECT_STEP)
+        except StatorhomError:
+            continue  # at the edge of what bodies exist
+    return np.zeros(len(start))
+
+
+@jacobian.register
+def _(h: Hypothesis, z: FloatArray) -> FloatArray:
     base, told = h.all_features(z)
     seen = [i for i, f in enumerate(base) if h.sees(f)]
     start = [base[i] for i in seen]

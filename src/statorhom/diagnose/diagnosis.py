@@ -10,7 +10,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from statorhom.diagnose.baseline import Baseline, baseline
+from statorhom.diagnose.approach import RING, Approach
+from statorhom.diagnose.baseline import Baseline
+from statorhom.diagnose.coupons.body_approach import BODY
 from statorhom.diagnose.decision import (
     OVER_OTHERS,
     Evidence,
@@ -30,10 +32,9 @@ from statorhom.diagnose.explanations import (
 from statorhom.diagnose.held_out import HeldOut, held_out
 from statorhom.diagnose.held_out_name import held_out_names, renames_alone
 from statorhom.diagnose.measured import MeasuredTest
-from statorhom.diagnose.mirrored import at_likelier_height
-from statorhom.diagnose.next_measurement import Choice, next_measurement
+from statorhom.diagnose.next_measurement import Choice
 from statorhom.diagnose.one_line_errors import one_line_errors
-from statorhom.diagnose.place_rows import angle_rows, machine_row, map_rows, opposite_rows, summaries
+from statorhom.diagnose.place_rows import summaries
 from statorhom.diagnose.report_rows import (
     as_declared,
     constant_rows,
@@ -44,10 +45,10 @@ from statorhom.diagnose.report_rows import (
 )
 from statorhom.diagnose.resampling import stability
 from statorhom.diagnose.scan import Scan, rescanned, scan
-from statorhom.diagnose.sharper import refined, sharpened
 from statorhom.diagnose.simpler import by_criterion, simpler_fits
 from statorhom.diagnose.single_effects import WORTH, single_effects
 from statorhom.geometry.stator import StatorGeometry
+from statorhom.geometry.tested_object import ObjectGeometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.settings import Settings
 from statorhom.physics.declared import DeclaredEffect
@@ -83,7 +84,7 @@ class Found:
 
 def diagnose(
     files: StudyFiles,
-    geometry: StatorGeometry,
+    geometry: ObjectGeometry,
     tests: Mapping[str, MeasuredTest],
     settings: Settings,
     announce: Announce = silent,
@@ -97,26 +98,30 @@ def diagnose(
     """
     began = time.perf_counter()
     with threadpool_limits(limits=1, user_api="blas"), one_line_errors(str(files.path)):
-        found = _find(files, geometry, tests, settings, announce)
+        approach = RING if isinstance(geometry, StatorGeometry) else BODY
+        found = _find(approach, files, geometry, tests, settings, announce)
         undecided = found.verdict == "ambiguous"
         choice = (
-            next_measurement(found.best, others(found.best, found.explanations)) if undecided else Choice()
+            approach.next_measurement(found.best, others(found.best, found.explanations))
+            if undecided
+            else Choice()
         )
-        diagnosis = _diagnosis(files, found, choice)
-        details = _details(files, found, choice, time.perf_counter() - began)
-        named = as_declared(found.best) if found.verdict == "named" else ()
+        diagnosis = _diagnosis(approach, files, found, choice)
+        details = _details(approach, files, found, choice, time.perf_counter() - began)
+        named = as_declared(found.best, approach.located) if found.verdict == "named" else ()
     return diagnosis, details, named
 
 
 def _find(
+    approach: Approach,
     files: StudyFiles,
-    geometry: StatorGeometry,
+    geometry: ObjectGeometry,
     tests: Mapping[str, MeasuredTest],
     settings: Settings,
     announce: Announce,
 ) -> Found:
     progress = announce("declared model", 1)
-    base = baseline(files, geometry, tests, settings)
+    base = approach.baseline(files, geometry, tests, settings)
     progress(1)
     candidates = all_candidates(files)
     counts = dict(Counter(c.effect for c in candidates))
@@ -126,7 +131,7 @@ def _find(
     progress = announce("explanations", 1)
     found = single_effects(base.free, signatures, [c for c in candidates if not c.parameters], counts)
     if found and found[0].adequacy < ADEQUATE:
-        found = refined(found, base.valleys, counts)
+        found = approach.refined(found, base.valleys, counts)
     if found and found[0].adequacy < ADEQUATE:
         found = _pairs(base, found, signatures, counts) + found
     progress(1)
@@ -134,7 +139,7 @@ def _find(
     best = found[0] if found else none
     if found:
         # reported numbers come from the explanation's own model, comparisons from the common one
-        best = at_likelier_height(replace(sharpened(best), log_evidence=best.log_evidence))
+        best = replace(approach.final(best), log_evidence=best.log_evidence)
     evidence = _evidence(base, best, none, found, signatures, settings.seed)
     return Found(decide(evidence), best, tuple(found), signatures, evidence, base)
 
@@ -145,7 +150,7 @@ def _pairs(
     """The best explanation with one more effect, the best first; none where modes that it did not see contradict."""
     first = found[0]
     left = rescanned(signatures, base.free, first.refit).worth_refitting(SECONDS, WORTH)
-    second = [s for s in left if s.candidate.effect not in first.effects]
+    second = [s for s in left if s.candidate.repeats or s.candidate.effect not in first.effects]
     pairs = with_second(first, second[:SECONDS], counts)
     if not pairs:
         return []
@@ -188,7 +193,7 @@ def _evidence(
     )
 
 
-def _diagnosis(files: StudyFiles, found: Found, choice: Choice) -> Diagnosis:
+def _diagnosis(approach: Approach, files: StudyFiles, found: Found, choice: Choice) -> Diagnosis:
     base, best = found.base.refit, found.best
     chances = _probabilities(found)
     named = found.verdict == "named"
@@ -209,7 +214,9 @@ def _diagnosis(files: StudyFiles, found: Found, choice: Choice) -> Diagnosis:
         schema=1,
         study=files.study.name,
         verdict=found.verdict,
-        effects=effect_results(best, chances.get("+".join(best.effects), 0.0)) if named else (),
+        effects=effect_results(best, chances.get("+".join(best.effects), 0.0), approach.located)
+        if named
+        else (),
         alternatives=tuple(shown) if found.verdict != "none" else (),
         mismatch=mismatch(base) if found.verdict != "none" else None,
         fit=FitErrors(
@@ -237,9 +244,10 @@ def _probabilities(found: Found) -> dict[str, float]:
     return dict(sorted(((e, w / whole) for e, w in weights.items()), key=lambda p: -p[1]))
 
 
-def _details(files: StudyFiles, found: Found, choice: Choice, seconds: float) -> Details:
+def _details(approach: Approach, files: StudyFiles, found: Found, choice: Choice, seconds: float) -> Details:
     best, e = found.best, found.evidence
     effect = library()[best.effects[0]] if best.effects else None
+    words = None if effect is None else effect.words(files)
     seen: dict[str, ScanRow] = {}
     for s in found.scan.signatures:
         c = s.candidate
@@ -251,21 +259,18 @@ def _details(files: StudyFiles, found: Found, choice: Choice, seconds: float) ->
         adequacy=e.adequacy,
         nothing_adequacy=e.nothing_adequacy,
         stability=e.stability,
-        summary=None if effect is None else effect.summary,
+        summary=None if words is None else words.summary,
         citation=None if effect is None else effect.citation,
-        confusions=() if effect is None else tuple((c.effect, c.separated_by) for c in effect.confused_with),
+        confusions=() if words is None else tuple((c.effect, c.separated_by) for c in words.confused_with),
         features=feature_rows(found.base.refit, best.refit),
         scan=tuple(seen.values())[:20],
-        angles=angle_rows(found.base.refit, best),
         constants=constant_rows(found.base.refit, best.refit),
         evidence=tuple((x.candidates[0].label, x.log_evidence) for x in found.explanations),
         seconds=seconds,
         simpler=_simpler(found),
         options=choice.options,
-        machine=machine_row(files),
-        maps=() if found.verdict == "none" else map_rows(found.base.refit),
-        opposite=opposite_rows(best) if found.verdict == "named" else (),
-        summaries=summaries(tuple(dict.fromkeys(n for x in found.explanations for n in x.effects))),
+        **approach.pictures(files, found.base.refit, best, found.verdict == "named", found.verdict != "none"),
+        summaries=summaries(tuple(dict.fromkeys(n for x in found.explanations for n in x.effects)), files),
     )
 
 

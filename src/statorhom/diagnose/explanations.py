@@ -5,16 +5,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Generic
 
 import numpy as np
 from scipy.special import logsumexp
 from scipy.stats import chi2
+from typing_extensions import TypeVar
 
-from statorhom.diagnose.hypothesis import Hypothesis
-from statorhom.diagnose.refit import Refit, refit
+from statorhom.diagnose.any_hypothesis import AnyHypothesis
+from statorhom.diagnose.refit import H, Refit, refit
 from statorhom.diagnose.scan import Signature
 from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
+
+_H = TypeVar("_H", bound=AnyHypothesis)
 
 COARSE = 0.03
 ADEQUATE = 0.01  # chance of a misfit above which nothing is left to explain
@@ -24,7 +28,7 @@ PAIR_GAIN = 5.0  # log evidence that a second effect must add
 
 
 @dataclass(frozen=True, eq=False)
-class Explanation:
+class Explanation(Generic[H]):
     """One or more effects at their optimum.
 
     Parameters
@@ -35,7 +39,7 @@ class Explanation:
     """
 
     candidates: tuple[Candidate, ...]
-    refit: Refit
+    refit: Refit[H]
     log_evidence: float
 
     @property
@@ -71,9 +75,9 @@ class Explanation:
 
     @cached_property
     def _residuals(self) -> tuple[np.ndarray, np.ndarray]:
-        """Those that count, and those of loss factors: these scatter as they like, and would hide a frequency."""
+        """Those that count, and those of loss factors and shapes: many and uncertain, they would hide a frequency."""
         found = self.refit.hypothesis.features(self.refit.z)
-        lossy = np.array([f.kind == "loss" for f in found], dtype=bool)
+        lossy = np.array([f.kind in ("loss", "shape") for f in found], dtype=bool)
         residuals = np.array([f.residual for f in found])
         return residuals[~lossy], residuals[lossy]
 
@@ -89,7 +93,7 @@ def with_second(first: Explanation, others: Sequence[Signature], counts: dict[st
     worth = first.refit.objective - 2 * PAIR_GAIN
     for signature in others:
         start = np.r_[first.refit.z, signature.start]
-        hypothesis = Hypothesis(first.refit.hypothesis.study, (*first.candidates, signature.candidate))
+        hypothesis = blank(first.refit.hypothesis, (*first.candidates, signature.candidate))
         best = refitted(hypothesis, start, worth)
         if best is not None:
             found.append(explained(best, counts))
@@ -104,8 +108,13 @@ def explained(best: Refit, counts: dict[str, int]) -> Explanation:
     return Explanation(candidates, best, best.log_evidence + prior)
 
 
-def refitted(hypothesis: Hypothesis, z: np.ndarray, worth: float = np.inf) -> Refit | None:
-    """The nearest optimum; None where no stator has the constants of the start.
+def blank(hypothesis: _H, candidates: tuple[Candidate, ...]) -> _H:
+    """The same with other effects, and modes to be paired anew."""
+    return replace(hypothesis, candidates=candidates, held=None, missed=0.0)
+
+
+def refitted(hypothesis: _H, z: np.ndarray, worth: float = np.inf) -> Refit[_H] | None:
+    """The nearest optimum; None where no body has the constants of the start.
 
     Parameters
     ----------
@@ -118,12 +127,12 @@ def refitted(hypothesis: Hypothesis, z: np.ndarray, worth: float = np.inf) -> Re
         return None
 
 
-def widened(hypothesis: Hypothesis, z: np.ndarray) -> Refit | None:
+def widened(hypothesis: _H, z: np.ndarray) -> Refit[_H] | None:
     """The optimum in wide valleys, seen by frequencies alone."""
     return refitted(replace(hypothesis, held=None, discrepancy=COARSE), z)
 
 
-def through_wide_valleys(hypothesis: Hypothesis, z: np.ndarray, rough: Refit | None = None) -> Refit | None:
+def through_wide_valleys(hypothesis: _H, z: np.ndarray, rough: Refit[_H] | None = None) -> Refit[_H] | None:
     """The optimum next to that in wide valleys, which may be known: partners may change on the way."""
     rough = rough or widened(hypothesis, z)
     return None if rough is None else refitted(replace(hypothesis, held=None), rough.z)

@@ -32,6 +32,7 @@ LINEAR, KNEE = 8.0, 3.0  # residuals grow with their logarithm beyond: one outli
 MOST_LOSS = (
     3.0  # residual of a loss factor: a cable or a cushion can double one, and is no physics of the stator
 )
+NUMBERED = -1  # in the place of n: a mode without a name, told by its row in the table
 USUAL_ORDERS = 6
 LOST, LOST_UNNAMED = 10.0, 4.0  # residual of a mode of a table that has no partner
 
@@ -44,7 +45,7 @@ class Feature:
 
     Parameters
     ----------
-    kind : "frequency", "split", "shift", "density", "loss", "level", "level_loss".
+    kind : "frequency", "split", "shift", "shape", "density", "loss", "level", "level_loss".
     test : of which test, empty for densities.
     key : of which mode.
     measured, predicted : ln f, relative split, relative shift, kg/m³, ln η, or the change of ln f or ln η from the
@@ -68,6 +69,13 @@ class Feature:
             raw = (self.measured - self.predicted) / self.sd
             return MOST_LOSS * float(np.tanh(raw / MOST_LOSS))
         return held_down((self.measured - self.predicted) / self.sd)
+
+    @property
+    def mode(self) -> tuple[int, ...] | None:
+        """As files name it: (r, n), or the row of a mode without a name."""
+        if self.key is None:
+            return None
+        return self.key[:1] if self.key[1] == NUMBERED else self.key[:2]
 
     @property
     def group(self) -> tuple[str, ModeKey | None]:

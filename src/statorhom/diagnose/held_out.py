@@ -6,14 +6,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from typing_extensions import TypeVar
 
+from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.derivatives import jacobian
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.features import Feature
-from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.refit import Refit, refit
 from statorhom.errors import StatorhomError
 from statorhom.model.convergence import ModeKey
+
+_H = TypeVar("_H", bound=AnyHypothesis)
 
 FOLDS = 6
 LEAST_FALL = 0.25
@@ -168,7 +171,7 @@ class _Error:
 
 def _errors(full: Refit, fold: frozenset[Group]) -> dict[Group, _Error]:
     """Errors of a fold after a fit without it."""
-    hypothesis: Hypothesis = replace(full.hypothesis, left_out=fold)
+    hypothesis: AnyHypothesis = replace(full.hypothesis, left_out=fold)
     try:
         trained = refit_held(hypothesis, full.z)
         known = left_out_errors(trained.hypothesis, trained.z)
@@ -178,7 +181,7 @@ def _errors(full: Refit, fold: frozenset[Group]) -> dict[Group, _Error]:
     return {group: _Error(*pair, spreads.get(group, 0.0)) for group, pair in known.items()}
 
 
-def _spreads(trained: Refit) -> dict[Group, float]:
+def _spreads(trained: Refit[_H]) -> dict[Group, float]:
     """Standard deviations of the predictions of what a fit left out, in percent."""
     everything = replace(trained.hypothesis, left_out=frozenset())
     rows = jacobian(everything, trained.z)
@@ -191,7 +194,7 @@ def _spreads(trained: Refit) -> dict[Group, float]:
     return found
 
 
-def left_out_errors(hypothesis: Hypothesis, z: np.ndarray) -> dict[Group, tuple[float, float]]:
+def left_out_errors(hypothesis: AnyHypothesis, z: np.ndarray) -> dict[Group, tuple[float, float]]:
     """Errors of what a hypothesis leaves out in percent, and their noise."""
     found: dict[Group, list[Feature]] = {}
     for feature in hypothesis.features(z, left_out=True):
@@ -200,7 +203,7 @@ def left_out_errors(hypothesis: Hypothesis, z: np.ndarray) -> dict[Group, tuple[
     return {group: (_error(features), _noise(features)) for group, features in found.items()}
 
 
-def refit_held(hypothesis: Hypothesis, z: np.ndarray) -> Refit:
+def refit_held(hypothesis: _H, z: np.ndarray) -> Refit[_H]:
     """Fit with the pairing as it is."""
     return refit(hypothesis, z, rounds=1)
 

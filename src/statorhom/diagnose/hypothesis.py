@@ -1,15 +1,15 @@
-"""One explanation of all tests of a study: the declared model, with none, one or two effects added."""
+"""One explanation of all tests of a stator or tube: the declared model, with none, one or two effects added."""
 
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import cast
 
 import numpy as np
 import numpy.typing as npt
 
+from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.damping import (
     free_losses,
     is_damped,
@@ -50,8 +50,6 @@ from statorhom.diagnose.supported import (
 )
 from statorhom.model.convergence import ModeKey
 from statorhom.physics.action import Action
-from statorhom.physics.candidate import Candidate
-from statorhom.physics.library import library
 from statorhom.study.modal_table import MeasuredMode
 from statorhom.study.study_file import FREE
 
@@ -61,60 +59,17 @@ Told = Mapping[str, tuple[StageModel, Predictions]]
 
 
 @dataclass(frozen=True, eq=False)
-class Hypothesis:
-    """Residuals of all features over the constants x and the effects' parameters p, in internal coordinates.
+class Hypothesis(AnyHypothesis):
+    """Of a stator or tube: an effect shifts and splits the modes of a cyclic body.
 
     Parameters
     ----------
     study : the model.
-    candidates : effects added.
-    left_out : groups of features (`Feature.group`) that the residuals do not see.
     held : test → partners of its modes; None to pair anew.
-    missed : -2 ln of the chance that the tests did not find the predicted modes that have no partner.
-    discrepancy : relative standard deviation added to all frequencies: makes the valleys wide enough to be found.
-    trained : whether bases hold the local fields that an effect asks for (`Action.training`), and machines of other
-        dimensions are solved. Both are dear, and what an effect promises can be told without them.
     """
 
     study: StudyModel
-    candidates: tuple[Candidate, ...] = ()
-    left_out: frozenset[tuple[str, ModeKey | None]] = frozenset()
     held: Mapping[str, Keys | Partners] | None = None
-    missed: float = 0.0
-    discrepancy: float = 0.0
-    trained: bool = True
-
-    @property
-    def constants(self) -> int:
-        """Number of constants, the first part of the vector."""
-        return len(self.study.constants)
-
-    @cached_property
-    def parameters(self) -> tuple[tuple[int, int], ...]:
-        """Candidate and parameter number of the vector's second part."""
-        return tuple((i, j) for i, c in enumerate(self.candidates) for j in range(len(c.parameters)))
-
-    def __len__(self) -> int:
-        return self.constants + len(self.parameters)
-
-    def effect_values(self, z: FloatArray) -> tuple[dict[str, float], ...]:
-        """Parameters of every candidate by name."""
-        found: list[dict[str, float]] = [{} for _ in self.candidates]
-        for (i, j), u in zip(self.parameters, z[self.constants :].tolist(), strict=True):
-            parameter = self.candidates[i].parameters[j]
-            found[i][parameter.name] = parameter.value(u)
-        return tuple(found)
-
-    def actions(self, z: FloatArray) -> tuple[Action, ...]:
-        """What the effects do, and after them those that the study declares."""
-        values = self.effect_values(z)
-        own = (
-            library()[c.effect].action(c, v, self.study.files)
-            for c, v in zip(self.candidates, values, strict=True)
-        )
-        if not self.trained:
-            own = (replace(action, training=None, proportional=True) for action in own)
-        return (*own, *self.study.effects)
 
     def mark(self, z: FloatArray) -> tuple[tuple[str, tuple[float, ...]], ...]:
         """What the actions depend on."""
@@ -122,23 +77,6 @@ class Hypothesis:
         kind = "" if self.trained else " untrained"
         own = ((c.label + kind, tuple(v.values())) for c, v in zip(self.candidates, values, strict=True))
         return (*own, *((f"declared {i}", ()) for i in range(len(self.study.effects))))
-
-    def limits(self) -> tuple[FloatArray, FloatArray]:
-        """Of the coordinates; angles have none."""
-        low, high = self.study.constants.limits
-        pairs = []
-        for i, j in self.parameters:
-            p = self.candidates[i].parameters[j]
-            free = p.scale == "angle"
-            pairs.append((-np.inf, np.inf) if free else (p.internal(p.lower), p.internal(p.upper)))
-        both = np.array(pairs).reshape(-1, 2)
-        return np.r_[low, both[:, 0]], np.r_[high, both[:, 1]]
-
-    @cached_property
-    def prior_weights(self) -> FloatArray:
-        """1 where the prior is standard normal, 0 where it is uniform."""
-        located = [self.candidates[i].parameters[j].located for i, j in self.parameters]
-        return np.r_[np.ones(self.constants), 1.0 - np.array(located, dtype=float)]
 
     def paired(self, z: FloatArray) -> Hypothesis:
         """With the pairing held as it is at z.
@@ -174,20 +112,9 @@ class Hypothesis:
             names |= dict(action.names)
         return test.named(names)
 
-    def features(self, z: FloatArray, left_out: bool = False) -> list[Feature]:
-        """All features that are seen, or those that are left out."""
-        found, _ = self.all_features(z)
-        return [f for f in found if self.sees(f) != left_out]
-
-    def sees(self, feature: Feature) -> bool:
-        """Wide valleys are sought with frequencies alone."""
-        if self.discrepancy and feature.kind not in ("frequency", "density"):
-            return False
-        return feature.group not in self.left_out
-
-    def residuals(self, z: FloatArray) -> FloatArray:
-        """Of the features that are seen, without the prior."""
-        return np.array([f.residual for f in self.features(z)])
+    def features_of_all(self, z: FloatArray) -> list[Feature]:
+        """Features whether seen or not, at a held pairing."""
+        return self.all_features(z)[0]
 
     def all_features(self, z: FloatArray, moved: Told | None = None) -> tuple[list[Feature], Told]:
         """Features whether seen or not, and the predictions behind them; `moved` stands in for these."""

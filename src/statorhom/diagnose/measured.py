@@ -86,6 +86,25 @@ class MeasuredShapes:
 
 
 @dataclass(frozen=True, eq=False)
+class MeasuredPoints:
+    """Motion of all modes at points of a plate, a beam or a wing, made real.
+
+    Parameters
+    ----------
+    positions, directions : (p, 3) in the body's axes (m).
+    motion, sd : (modes, p) and standard deviations.
+    shift, shift_sd : (modes, p) of the modes' poles, relative, where one sensor roved; None elsewhere.
+    """
+
+    positions: np.ndarray
+    directions: np.ndarray
+    motion: np.ndarray
+    sd: np.ndarray
+    shift: np.ndarray | None = None
+    shift_sd: np.ndarray | None = None
+
+
+@dataclass(frozen=True, eq=False)
 class MeasuredTest:
     """One test.
 
@@ -96,6 +115,7 @@ class MeasuredTest:
     modes : all modes, by frequency.
     recorded : whether shapes were seen, so that names and angles are the program's own.
     splits, shifts, sidebands, shapes : what the shapes told.
+    points : the same of a body without an axis.
     """
 
     stage: int
@@ -107,6 +127,7 @@ class MeasuredTest:
     shifts: tuple[PlaneShifts, ...] = ()
     sidebands: tuple[Sideband, ...] = ()
     shapes: MeasuredShapes | None = None
+    points: MeasuredPoints | None = None
 
     def named(self, names: Mapping[tuple[str, str], tuple[int, int]]) -> tuple[MeasuredMode, ...]:
         """The modes with some names corrected: (test, label) → (r, n)."""

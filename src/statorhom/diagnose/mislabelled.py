@@ -18,6 +18,8 @@ OUTLIER = 3.0
 
 def worth_trying(base: Refit, candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:
     """Candidates that give outliers the name of a predicted mode nearby."""
+    if not candidates:
+        return ()
     hypothesis = base.hypothesis
     assert hypothesis.held is not None
     values = hypothesis.study.constants.values(base.z[: hypothesis.constants])

@@ -32,7 +32,7 @@ def next_measurement(best: Explanation, rest: Sequence[Explanation]) -> Choice:
     second = rest[0]
     names = tuple(dict.fromkeys((*best.effects, *second.effects)))
     rows = ranked(best, second)
-    said = _said(best, second)
+    said = said_of(best, second)
     if not rows or rows[0].log_evidence < LEAST_GAIN:
         # none of the model's own options decides: what the library knows of the two is the better advice
         return Choice(NextMeasurement(what=said, separates=names), tuple(rows[:SHOWN]))
@@ -67,11 +67,11 @@ def _options(best: Explanation, second: Explanation) -> list[Option]:
     return list(seen.values())
 
 
-def _said(best: Explanation, second: Explanation) -> str:
+def said_of(best: Explanation, second: Explanation) -> str:
     """What the library says of the two."""
     for a, b in ((best, second), (second, best)):
         for name in a.effects:
-            for confusion in library()[name].confused_with:
+            for confusion in library()[name].words(a.refit.hypothesis.study.files).confused_with:
                 if confusion.effect in b.effects:
                     return confusion.separated_by
     return "repeat the test with more points"

@@ -67,9 +67,9 @@ def opposite_rows(best: Explanation) -> tuple[OppositeRow, ...]:
     return tuple(found)
 
 
-def summaries(effects: tuple[str, ...]) -> dict[str, str]:
+def summaries(effects: tuple[str, ...], files: StudyFiles) -> dict[str, str]:
     """A sentence on every effect that the page mentions."""
-    return {name: library()[name].summary for name in effects if name in library()}
+    return {name: library()[name].words(files).summary for name in effects if name in library()}
 
 
 def _degrees(angles_rad: tuple[float, ...]) -> tuple[float, ...]:

@@ -10,8 +10,17 @@ from pathlib import Path
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from statorhom.diagnose.measured import MeasuredShapes, MeasuredSplit, MeasuredTest, PlaneShifts, Sideband
+from statorhom.diagnose.body_points import body_points, distinct_modes
+from statorhom.diagnose.measured import (
+    MeasuredPoints,
+    MeasuredShapes,
+    MeasuredSplit,
+    MeasuredTest,
+    PlaneShifts,
+    Sideband,
+)
 from statorhom.diagnose.plane_shifts import plane_shifts, strongest
+from statorhom.extraction.flat_bodies import is_flat_body
 from statorhom.extraction.measured_modes import MeasuredModes, measured_modes
 from statorhom.extraction.modal_table_text import modal_table
 from statorhom.identify.announce import Announce, silent
@@ -25,7 +34,7 @@ from statorhom.study.modal_table import MeasuredMode, ModalTable
 from statorhom.study.modal_tests import ModalTestKeys
 from statorhom.study.study import StudyFiles
 
-FOLDER, FORMAT = "recordings", 5  # a change of method makes what is kept stale
+FOLDER, FORMAT = "recordings", 6  # a change of method makes what is kept stale
 
 
 @dataclass(frozen=True)
@@ -109,7 +118,8 @@ def _recorded(task: RecordedTest, tick: Tick) -> MeasuredTest:
 def from_recording(measured: MeasuredModes, stage: int, name: str, support: str, path: Path) -> MeasuredTest:
     """A test from its extracted modes; weaker images of one mode are left out."""
     paired = {i for d in measured.doublets for i in (d.lower, d.upper)}
-    kept = set(strongest(measured.modes, paired))
+    flat = is_flat_body(measured.extraction.points)
+    kept = set(distinct_modes(measured) if flat else strongest(measured.modes, paired))
     shifts = plane_shifts(measured)
     moved = {s.label: 1.0 + s.mean for s in shifts}
     rows = [
@@ -126,6 +136,7 @@ def from_recording(measured: MeasuredModes, stage: int, name: str, support: str,
         shifts=shifts,
         sidebands=tuple(s for i in sorted(kept) if (s := _sideband(measured, i)) is not None),
         shapes=_shapes(measured, sorted(kept)),
+        points=body_points(measured, sorted(kept)),
     )
 
 
@@ -199,9 +210,18 @@ def _read(path: Path, digest: str) -> MeasuredTest | None:
                 for s in t["sidebands"]
             ),
             _read_shapes(t["shapes"]),
+            _read_points(t["points"]),
         )
     except (OSError, ValueError, KeyError, TypeError):
         return None
+
+
+def _read_points(table: dict[str, list | None] | None) -> MeasuredPoints | None:
+    if table is None:
+        return None
+    return MeasuredPoints(
+        **{k: None if v is None else np.array(v, dtype=float) for k, v in table.items()}  # type: ignore[arg-type]
+    )
 
 
 def _read_shapes(table: dict[str, list] | None) -> MeasuredShapes | None:

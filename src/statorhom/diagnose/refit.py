@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Generic
 
 import numpy as np
 import numpy.typing as npt
+from typing_extensions import TypeVar
 
+from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.derivatives import jacobian
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.errors import StatorhomError
@@ -20,8 +23,13 @@ LARGEST_STEP = 2.0  # in prior standard deviations
 UNIFORM = 2 * np.pi / 12  # precision of a normal density that is as high as the uniform one
 
 
+# unless said otherwise, a stator's
+H = TypeVar("H", bound=AnyHypothesis, default=Hypothesis, covariant=True)
+_H = TypeVar("_H", bound=AnyHypothesis)
+
+
 @dataclass(frozen=True, eq=False)
-class Refit:
+class Refit(Generic[H]):
     """A hypothesis at its optimum.
 
     Parameters
@@ -33,7 +41,7 @@ class Refit:
     objective : with the prior.
     """
 
-    hypothesis: Hypothesis
+    hypothesis: H
     z: FloatArray
     jacobian: FloatArray
     misfit: float
@@ -74,7 +82,7 @@ def log_volume(information: FloatArray, weights: FloatArray) -> float:
     return -0.5 * float(logdet) + 0.5 * float(uniform.sum()) * float(np.log(UNIFORM))
 
 
-def refit(hypothesis: Hypothesis, start: FloatArray, rounds: int = ROUNDS, worth: float = np.inf) -> Refit:
+def refit(hypothesis: _H, start: FloatArray, rounds: int = ROUNDS, worth: float = np.inf) -> Refit[_H]:
     """The nearest optimum.
 
     Parameters
@@ -87,9 +95,10 @@ def refit(hypothesis: Hypothesis, start: FloatArray, rounds: int = ROUNDS, worth
     Raises
     ------
     StatorhomError
-        If no stator has the constants of the start.
+        If no body has the constants of the start.
     """
-    z, best = start, None
+    z = start
+    best: Refit[_H] | None = None
     for _ in range(rounds):
         paired = hypothesis.paired(z)
         found = _polished(paired, z, worth)
@@ -102,13 +111,13 @@ def refit(hypothesis: Hypothesis, start: FloatArray, rounds: int = ROUNDS, worth
     return best
 
 
-def evaluated(hypothesis: Hypothesis, z: FloatArray) -> Refit:
+def evaluated(hypothesis: _H, z: FloatArray) -> Refit[_H]:
     """A hypothesis at a point that need not be its optimum.
 
     Raises
     ------
     StatorhomError
-        If no stator has these constants.
+        If no body has these constants.
     """
     paired = hypothesis.paired(z)
     residuals = paired.residuals(z)
@@ -116,7 +125,19 @@ def evaluated(hypothesis: Hypothesis, z: FloatArray) -> Refit:
     return Refit(paired, z, jacobian(paired, z), float(residuals @ residuals), objective)
 
 
-def _polished(hypothesis: Hypothesis, z: FloatArray, worth: float = np.inf) -> Refit:
+def refit_objective(hypothesis: AnyHypothesis, z: FloatArray) -> float:
+    """What a refit would make as small as it can, at a point.
+
+    Raises
+    ------
+    StatorhomError
+        If no body has these constants.
+    """
+    paired = hypothesis.paired(z)
+    return _objective(paired.residuals(z), z, paired.prior_weights) + paired.missed
+
+
+def _polished(hypothesis: _H, z: FloatArray, worth: float = np.inf) -> Refit[_H]:
     weights, (low, high) = hypothesis.prior_weights, hypothesis.limits()
     z = np.clip(z, low, high)
     residuals = hypothesis.residuals(z)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.features import SPLIT_PART, Feature
-from statorhom.diagnose.location import located
 from statorhom.diagnose.refit import Refit
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.declared import DeclaredEffect
@@ -20,16 +19,22 @@ from statorhom.results.diagnosis import (
     Errors,
     Estimated,
     FeatureRow,
+    Location,
     Mismatch,
+    PlanLocation,
 )
 
 Z90 = 1.6448536269514722
+Located = Callable[[Explanation, int], Location | PlanLocation | None]
+
 STEP = 1e-3  # of internal coordinates
 REMARKABLE = 3.0  # standard deviations
 MOST_MODES = 8
 
 
-def effect_results(explanation: Explanation, probability: float) -> tuple[EffectResult, ...]:
+def effect_results(
+    explanation: Explanation, probability: float, located: Located
+) -> tuple[EffectResult, ...]:
     """The explanation's effects as the file names them."""
     r = explanation.refit
     found = []
@@ -51,13 +56,13 @@ def effect_results(explanation: Explanation, probability: float) -> tuple[Effect
                 location=located(explanation, number),
                 parameters=parameters,
                 probability=probability,
-                note=effect.note,
+                note=effect.words(r.hypothesis.study.files).note,
             )
         )
     return tuple(found)
 
 
-def as_declared(explanation: Explanation) -> tuple[DeclaredEffect, ...]:
+def as_declared(explanation: Explanation, located: Located) -> tuple[DeclaredEffect, ...]:
     """The explanation's effects with their values, as a study would declare them."""
     r = explanation.refit
     found = []
@@ -65,7 +70,7 @@ def as_declared(explanation: Explanation) -> tuple[DeclaredEffect, ...]:
         zip(explanation.candidates, r.hypothesis.effect_values(r.z), strict=True)
     ):
         place = located(explanation, number)
-        if place is not None and place.angle_deg is not None:
+        if isinstance(place, Location) and place.angle_deg is not None:
             # the likeliest of the angles that splits alone do not tell apart
             values = {**values, "angle_rad": float(np.deg2rad(place.angle_deg))}
         action = library()[candidate.effect].action(candidate, values, r.hypothesis.study.files)
@@ -127,7 +132,7 @@ def mismatch(base: Refit) -> Mismatch | None:
         (f for f in features if f.test == worst and abs(f.residual) > REMARKABLE),
         key=lambda f: -abs(f.residual),
     )
-    modes = tuple(dict.fromkeys((f.key[0], f.key[1]) for f in odd if f.key is not None))[:MOST_MODES]
+    modes = tuple(dict.fromkeys(f.mode for f in odd if f.mode is not None))[:MOST_MODES]
     lost = sum(f.lost and f.kind == "frequency" for f in odd)
     return Mismatch(stage=tests[worst], test=worst, modes=modes, statement=_statement(worst, odd, lost))
 
@@ -139,10 +144,9 @@ def _statement(test: str, odd: Sequence[Feature], lost: int) -> str:
     frequency = [f for f in odd if f.kind == "frequency" and not f.lost]
     if frequency:
         f = frequency[0]
-        assert f.key is not None
         error = 100 * (np.exp(f.predicted - f.measured) - 1)
         parts.append(
-            f"{len(frequency)} frequencies are off, ({f.key[0]}, {f.key[1]}) by {error:+.2f} % "
+            f"{len(frequency)} frequencies are off, {_words(f)} by {error:+.2f} % "
             f"({abs(f.residual):.0f} standard deviations)"
         )
     splits = {f.key for f in odd if f.kind == "split" and not f.lost}
@@ -150,9 +154,17 @@ def _statement(test: str, odd: Sequence[Feature], lost: int) -> str:
         parts.append(f"{len(splits)} doublets are split otherwise than predicted")
     if any(f.kind == "shift" for f in odd):
         parts.append("poles move from measuring plane to measuring plane")
+    shapes = {f.key for f in odd if f.kind == "shape"}
+    if shapes:
+        parts.append(f"{len(shapes)} shapes are not those of the declared body")
     if lost:
         parts.append(f"{lost} modes have no partner")
     return f"{test}: {'; '.join(parts)}"
+
+
+def _words(f: Feature) -> str:
+    mode = f.mode or ()
+    return f"mode {mode[0]}" if len(mode) == 1 else f"({', '.join(str(number) for number in mode)})"
 
 
 def feature_rows(base: Refit, best: Refit) -> tuple[FeatureRow, ...]:
@@ -171,7 +183,7 @@ def feature_rows(base: Refit, best: Refit) -> tuple[FeatureRow, ...]:
             FeatureRow(
                 stage=stages[f.test],
                 test=f.test,
-                mode=(f.key[0], f.key[1]),
+                mode=f.mode,
                 kind=f.kind,
                 measured=f.measured,
                 before=f.predicted,

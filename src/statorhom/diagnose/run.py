@@ -8,7 +8,7 @@ from statorhom.diagnose.apply import check_not_the_study, write_amended
 from statorhom.diagnose.diagnosis import diagnose
 from statorhom.diagnose.recorded import measured_tests
 from statorhom.diagnose.refit_chain import with_refitted_chain
-from statorhom.geometry.stator import stator_geometry
+from statorhom.geometry.tested_object import object_geometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.settings import Settings
 from statorhom.results.diagnosis import Details, Diagnosis, write_diagnosis
@@ -39,7 +39,7 @@ def diagnose_study(
     earlier_stages(folder, files.study.name)  # results of another study are refused before any work
     if apply:
         check_not_the_study(files, folder)
-    geometry = stator_geometry(files.geometry, files.geometry_path)
+    geometry = object_geometry(files.drawing, files.geometry_path)
     measured, tests = measured_tests(files, folder, announce, settings.jobs)
     diagnosis, details, named = diagnose(measured, geometry, tests, settings, announce)
     write_diagnosis(diagnosis, details, folder)

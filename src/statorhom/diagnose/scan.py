@@ -8,15 +8,14 @@ when nothing is missing comes from draws of noise and constants that are refitte
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.diagnose.any_hypothesis import ModelledStudy
 from statorhom.diagnose.refit import Refit
-from statorhom.diagnose.study_model import StudyModel
 from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.parameter import EffectParameter
@@ -154,13 +153,13 @@ def _p_value(signatures: Sequence[Signature], q: FloatArray, seed: int) -> float
     return float((1 + np.count_nonzero(largest >= signatures[0].gain)) / (1 + DRAWS))
 
 
-def starts(study: StudyModel, candidate: Candidate) -> list[FloatArray]:
+def starts(study: ModelledStudy, candidate: Candidate) -> list[FloatArray]:
     """Internal coordinates at all combinations of magnitudes and places."""
     choices = [_choices(study, p) for p in candidate.parameters]
     return [np.array(point) for point in product(*choices)]
 
 
-def _choices(study: StudyModel, parameter: EffectParameter) -> list[float]:
+def _choices(study: ModelledStudy, parameter: EffectParameter) -> list[float]:
     if parameter.scale == "angle":
         period = parameter.upper - parameter.lower
         split = [t for stage in study.stages for t in stage.tests if t.splits]
@@ -172,23 +171,18 @@ def _choices(study: StudyModel, parameter: EffectParameter) -> list[float]:
         count = max(4, int(np.ceil(ANGLES_PER_ORDER * max(highest, 2) * half / np.pi)))
         return [parameter.internal(half * k / count) for k in range(count)]
     if parameter.scale == "place":
+        span = parameter.upper - parameter.lower
         return [
-            parameter.internal(parameter.lower + h * (parameter.upper - parameter.lower)) for h in HEIGHTS
+            parameter.internal(v) for v in parameter.starts or [parameter.lower + h * span for h in HEIGHTS]
         ]
     return [parameter.internal(value) for value in parameter.starts]
 
 
 def _change(base: Refit, candidate: Candidate, start: FloatArray) -> FloatArray | None:
-    """Residuals with the effect minus those without, pairing held; None where no stator has the effect."""
+    """Residuals with the effect minus those without, pairing held; None where no body has the effect."""
     hypothesis = base.hypothesis
-    acted = Hypothesis(
-        hypothesis.study,
-        (candidate,),
-        hypothesis.left_out,
-        hypothesis.held,
-        hypothesis.missed,
-        trained=False,  # a signature's direction needs no local fields
-    )
+    # a signature's direction needs no local fields
+    acted = replace(hypothesis, candidates=(candidate,), trained=False)
     try:
         with_effect = acted.features(np.r_[base.z, start])
     except (StatorhomError, KeyError):

@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.derivatives import jacobian
 from statorhom.diagnose.held_out import groups_of, left_out_errors, refit_held
-from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.scan import Scan
 from statorhom.errors import StatorhomError
@@ -64,13 +64,13 @@ def simpler_fits(base: Refit) -> SimplerFits:
     return SimplerFits(_rms(alone), _rms(whole))
 
 
-def in_plane_moduli(hypothesis: Hypothesis) -> list[int]:
+def in_plane_moduli(hypothesis: AnyHypothesis) -> list[int]:
     """Numbers of the constants that are Young's moduli, those along the stack left out."""
     names = [name.split(".")[-1] for name in hypothesis.study.constants.names]
     return [i for i, name in enumerate(names) if name.startswith("E_") and name != "E_z_pa"]
 
 
-def fitted_alone(hypothesis: Hypothesis, start: np.ndarray, free: Sequence[int]) -> np.ndarray:
+def fitted_alone(hypothesis: AnyHypothesis, start: np.ndarray, free: Sequence[int]) -> np.ndarray:
     """Optimum over some of the constants, all others at their prior medians; the pairing is held.
 
     Raises

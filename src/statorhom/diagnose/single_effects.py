@@ -15,6 +15,7 @@ import numpy as np
 from statorhom.diagnose.explanations import (
     ADEQUATE,
     Explanation,
+    blank,
     explained,
     nothing,
     refitted,
@@ -119,7 +120,7 @@ def _starts_of(base: Refit, found: Scan, signature: Signature) -> list[_Start]:
 
 
 def _start(base: Refit, candidate: Candidate, start: np.ndarray) -> _Start:
-    hypothesis = Hypothesis(base.hypothesis.study, (candidate,), base.hypothesis.left_out)
+    hypothesis = blank(base.hypothesis, (candidate,))
     return _Start(hypothesis, np.r_[base.z, start])
 
 

@@ -17,6 +17,38 @@ TrainingRule = Callable[[HalfPitchMesh, Materials], tuple[Change, ...]]
 
 
 @dataclass(frozen=True)
+class Attachment:
+    """A lump or springs on the surface of a coupon.
+
+    Parameters
+    ----------
+    place : x, y, z (m).
+    mass_kg : of the lump.
+    stiffness : along x, y, z (N/m), to the ground.
+    """
+
+    place: tuple[float, float, float]
+    mass_kg: float = 0.0
+    stiffness: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Patch:
+    """A part of a coupon that is stiffer or softer, fading out as exp(-r²/2).
+
+    Parameters
+    ----------
+    centre : x, y (m).
+    radii : r = 1 along x and along y (m).
+    ratio : of the stiffness at the centre over the declared one; the mass is unchanged.
+    """
+
+    centre: tuple[float, float]
+    radii: tuple[float, float]
+    ratio: float
+
+
+@dataclass(frozen=True)
 class Joint:
     """A contact of finite stiffness where bonding was assumed.
 
@@ -90,6 +122,7 @@ class Action:
     symmetries : region → material symmetry that a study would have to declare to contain the effect.
     sensor_kg : mass of an accelerometer that roves over the measured points.
     modulus_at : region → factor of its stiffness at a frequency (Hz).
+    attachments, patches : on a coupon.
     stages, tests : where it is present; None: everywhere.
     """
 
@@ -107,6 +140,8 @@ class Action:
     symmetries: Mapping[str, str] = field(default_factory=dict)
     sensor_kg: float = 0.0
     modulus_at: Mapping[str, Callable[[float], float]] = field(default_factory=dict)
+    attachments: tuple[Attachment, ...] = ()
+    patches: tuple[Patch, ...] = ()
     stages: frozenset[str] | None = None
     tests: frozenset[str] | None = None
 

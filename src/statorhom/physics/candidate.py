@@ -18,6 +18,7 @@ class Candidate:
     parameters : its constants; discrete choices are candidates of their own.
     region, test : where it is confined to one.
     choice : what else tells it from the effect's other candidates (the input's key, the harmonic, a mode).
+    repeats : whether a second one of the same effect may be at another place.
     """
 
     effect: str
@@ -26,6 +27,7 @@ class Candidate:
     region: str | None = None
     test: str | None = None
     choice: tuple[tuple[str, str | int], ...] = ()
+    repeats: bool = False
 
     @property
     def label(self) -> str:

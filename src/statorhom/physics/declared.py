@@ -15,7 +15,7 @@ import numpy as np
 from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.effect import Effect
-from statorhom.physics.library import library
+from statorhom.physics.library import candidates_of, library
 from statorhom.physics.parameter import EffectParameter
 from statorhom.study.declared_effects import EffectKeys
 from statorhom.study.message import input_error, quoted
@@ -122,9 +122,9 @@ def _declared(files: StudyFiles, stage: str, number: int, keys: EffectKeys) -> D
 
 def _candidate(files: StudyFiles, stage: str, where: str, effect: Effect, keys: EffectKeys) -> Candidate:
     """The library's candidate that a table means."""
-    possible = [c for c in effect.candidates(files) if c.stage == stage]
+    possible = [c for c in candidates_of(effect, files) if c.stage == stage]
     if not possible:
-        others = sorted({c.stage for c in effect.candidates(files)})
+        others = sorted({c.stage for c in candidates_of(effect, files)})
         remedy = f"it can be in {', '.join(others)}" if others else "delete it"
         raise input_error(files.path, where, f"{effect.name} cannot be in stage {quoted(stage)}", remedy)
     choices = list(dict.fromkeys(name for c in possible for name, _ in c.choice))

@@ -9,6 +9,7 @@ from typing import ClassVar
 
 from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
+from statorhom.study.object_file import STATOR
 from statorhom.study.study import StudyFiles
 
 
@@ -20,11 +21,21 @@ class Confusion:
     separated_by: str
 
 
+@dataclass(frozen=True)
+class Words:
+    """What a report says of an effect: one sentence, how its magnitude is modelled, and what looks alike."""
+
+    summary: str
+    note: str | None = None
+    confused_with: tuple[Confusion, ...] = ()
+
+
 class Effect(ABC):
     """A physical effect that a model may lack.
 
     Class attributes: `name` (formats.md), `summary` (one sentence for the report), `citation`, `confused_with`, and
-    `note`, which says how magnitudes are modelled where that matters.
+    `note`, which says how magnitudes are modelled where that matters; `coupon_words` where plates, beams and wings
+    ask for others.
     """
 
     name: ClassVar[str]
@@ -32,14 +43,25 @@ class Effect(ABC):
     citation: ClassVar[str]
     confused_with: ClassVar[tuple[Confusion, ...]] = ()
     note: ClassVar[str | None] = None
+    coupon_words: ClassVar[Words | None] = None
 
     @abstractmethod
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
-        """All ways in which the effect may be present in a study; none where it is declared or cannot be."""
+        """All ways in which the effect may be present in a stator's study; none where it is declared or cannot be."""
+
+    def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:  # noqa: ARG002
+        """The same of a study of a plate, a beam or a wing; none where the effect is one of stators alone."""
+        return ()
 
     @abstractmethod
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
         """What it changes at values of its parameters (by name, in their units)."""
+
+    def words(self, files: StudyFiles) -> Words:
+        """What is said of it in a study."""
+        if self.coupon_words is not None and files.drawing.kind != STATOR:
+            return self.coupon_words
+        return Words(self.summary, self.note, self.confused_with)
 
     def reported(self, candidate: Candidate, values: Mapping[str, float]) -> dict[str, float | str]:
         """Parameters as diagnosis.json names them: by default all that are no places, and the choices."""

@@ -9,6 +9,7 @@ from functools import cache
 from statorhom.physics import effects
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.effect import Effect
+from statorhom.study.object_file import STATOR
 from statorhom.study.study import StudyFiles
 
 
@@ -34,4 +35,9 @@ def library() -> dict[str, Effect]:
 
 def all_candidates(files: StudyFiles) -> tuple[Candidate, ...]:
     """Everything that the library can say of a study."""
-    return tuple(candidate for effect in library().values() for candidate in effect.candidates(files))
+    return tuple(candidate for effect in library().values() for candidate in candidates_of(effect, files))
+
+
+def candidates_of(effect: Effect, files: StudyFiles) -> tuple[Candidate, ...]:
+    """What an effect can be in a study, by the kind of body that the study is of."""
+    return effect.candidates(files) if files.drawing.kind == STATOR else effect.coupon_candidates(files)

@@ -36,6 +36,16 @@ class Location(_Part):
     z_sd_mm: float | None = None
 
 
+class PlanLocation(_Part):
+    """Where on a plate, a beam or a wing, seen from above; all places that the measurements do not tell apart."""
+
+    x_mm: float
+    x_sd_mm: float
+    y_mm: float
+    y_sd_mm: float
+    place_ambiguity_mm: tuple[tuple[float, float], ...] = ()
+
+
 class EffectResult(_Part):
     """A named effect."""
 
@@ -43,7 +53,7 @@ class EffectResult(_Part):
     stage: str
     region: str | None
     test: str | None
-    location: Location | None
+    location: Location | PlanLocation | None
     parameters: dict[str, Estimated | float | str]
     probability: float
     note: str | None = None
@@ -61,7 +71,7 @@ class Mismatch(_Part):
 
     stage: str
     test: str
-    modes: tuple[tuple[int, int], ...]
+    modes: tuple[tuple[int, ...], ...]
     statement: str
 
 
@@ -114,7 +124,7 @@ class FeatureRow(_Part):
 
     stage: str
     test: str
-    mode: tuple[int, int] | None
+    mode: tuple[int, ...] | None
     kind: str
     measured: float
     before: float
@@ -158,6 +168,12 @@ class MachineRow(_Part):
     length_mm: float
     outer_diameter_mm: float
     slots: int
+
+
+class PlanRow(_Part):
+    """Outline of a plate, a beam or a wing, seen from above."""
+
+    outline_mm: tuple[tuple[float, float], ...]
 
 
 class OptionRow(_Part):
@@ -220,11 +236,12 @@ class Details(_Part):
     confusions: tuple[tuple[str, str], ...]
     features: tuple[FeatureRow, ...]
     scan: tuple[ScanRow, ...]
-    angles: tuple[AngleRow, ...]
     constants: tuple[ConstantRow, ...]
     evidence: tuple[tuple[str, float], ...]
     seconds: float
+    angles: tuple[AngleRow, ...] = ()
     machine: MachineRow | None = None
+    plan: PlanRow | None = None
     maps: tuple[MapRow, ...] = ()
     opposite: tuple[OppositeRow, ...] = ()
     summaries: dict[str, str] = Field(default_factory=dict)

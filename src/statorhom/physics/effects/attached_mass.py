@@ -8,10 +8,11 @@ from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Materials
 from statorhom.model.broken.attachments import footed_lump
 from statorhom.model.broken.change import Change
-from statorhom.physics.action import Action
+from statorhom.physics.action import Action, Attachment
 from statorhom.physics.candidate import Candidate
-from statorhom.physics.effect import Confusion, Effect
+from statorhom.physics.effect import Confusion, Effect, Words
 from statorhom.physics.parameter import EffectParameter, angle, height
+from statorhom.physics.plan import places_on, plan_of
 from statorhom.study.study import StudyFiles
 
 # Terminal boxes, lugs and weights: how high their centre of gravity lies decides how much the tangential motion, and
@@ -36,22 +37,42 @@ class AttachedMass(Effect):
         "a rigid cube on a square foot 1.5 times as wide as its centre of gravity is high, not on the scale"
     )
 
+    coupon_words = Words(
+        "a lump on the body is not in the model",
+        "a point mass on the upper face, not on the scale",
+        (
+            Confusion(
+                "local_stiffness", "shapes at more points near the place; frequencies rise at a stiffer patch"
+            ),
+            Confusion("suspension_stiffness", "the shift falls with the frequency squared"),
+        ),
+    )
+
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         length = files.geometry.core.length_mm / 1e3
         found = []
         for stage in files.study.stages:
             if not stage.tests:
                 continue
-            m = stage.mass_kg
-            mass = EffectParameter(
-                "mass_kg", 0.003 * m, 0.05 * m, 1e-4 * m, LARGEST * m, "log", (0.01 * m,), None
-            )
+            mass = _share_of(stage.mass_kg)
             # foot and all on the surface
             place = height(length)
             found.append(Candidate(self.name, stage.name, (mass, HEIGHT_MM, angle(), place), "lamination"))
         return tuple(found)
 
+    def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        places = places_on(files)
+        return tuple(
+            Candidate(self.name, stage.name, (_share_of(stage.mass_kg), *places), repeats=True)
+            for stage in files.study.stages
+            if stage.tests and places
+        )
+
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
+        plan = plan_of(files)
+        if plan is not None:
+            lump = Attachment(plan.on_top(values), values["mass_kg"])
+            return Action(attachments=(lump,), stages=frozenset({candidate.stage}))
         length = files.geometry.core.length_mm / 1e3
         above = values.get("cog_height_mm", USUAL_MM) / 1e3
         foot = min(FOOT * above, 0.5 * length)
@@ -63,6 +84,10 @@ class AttachedMass(Effect):
             return (lump,)
 
         return Action(changes=changes, stages=frozenset({candidate.stage}))
+
+
+def _share_of(m: float) -> EffectParameter:
+    return EffectParameter("mass_kg", 0.003 * m, 0.05 * m, 1e-4 * m, LARGEST * m, "log", (0.01 * m,), None)
 
 
 EFFECT = AttachedMass()

@@ -10,16 +10,18 @@ from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Materials
 from statorhom.model.broken.change import Change
 from statorhom.model.broken.variations import strip
-from statorhom.physics.action import Action, Training
+from statorhom.physics.action import Action, Patch, Training
 from statorhom.physics.candidate import Candidate
-from statorhom.physics.effect import Confusion, Effect
+from statorhom.physics.effect import Confusion, Effect, Words
 from statorhom.physics.parameter import EffectParameter, angle
 from statorhom.physics.pieces import region_pieces
+from statorhom.physics.plan import plan_of
 from statorhom.study.study import StudyFiles
 
 WIDTH_RAD = 0.1745  # 10°
 DEPTH_SHARE = 0.5  # of the yoke
 TRAINED = 0.6  # strength of the examples: their fields are those of other strengths too
+SPREAD = 0.12  # of a coupon's sides: radius of a patch
 RATIO = EffectParameter("stiffness_ratio", 0.3, 2.5, 0.02, 12.0, "log", (0.6, 1.6), 1.0)
 
 
@@ -35,11 +37,28 @@ class LocalStiffness(Effect):
     )
     note = "modulus of an axial strip of the yoke, 10° wide and half the yoke deep, over that of the core"
 
+    coupon_words = Words(
+        "a part of the body is stiffer or softer: a flaw, a repair, an uneven thickness",
+        f"stiffness at the middle of a patch that fades over {SPREAD:.0%} of the body's sides, over the declared one",
+        (Confusion("attached_mass", "shapes at more points near the place"),),
+    )
+
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         stages = [stage.name for stage in files.study.stages if stage.tests]
         return tuple(Candidate(self.name, name, (RATIO, angle()), "lamination") for name in stages[:1])
 
+    def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        plan = plan_of(files)
+        stages = [] if plan is None else [stage.name for stage in files.study.stages if stage.tests]
+        return tuple(Candidate(self.name, name, (RATIO, *plan.places())) for name in stages if plan)
+
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
+        plan = plan_of(files)
+        if plan is not None:
+            x, y, _ = plan.on_top(values)
+            radii = (SPREAD * plan.radii[0], SPREAD * plan.radii[1])
+            patch = Patch((x, y), radii, values["stiffness_ratio"])
+            return Action(patches=(patch,), stages=frozenset({candidate.stage}))
         depth = DEPTH_SHARE * files.geometry.core.yoke_thickness_mm / 1e3
 
         def changes(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:

@@ -29,6 +29,9 @@ class SensorMass(Effect):
             if test.modal_table is None and not test.weighed
         )
 
+    def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        return self.candidates(files)
+
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
         stages, tests = frozenset({candidate.stage}), frozenset({str(candidate.test)})
         return Action(sensor_kg=values["mass_kg"], stages=stages, tests=tests)

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 
 from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
-from statorhom.physics.effect import Confusion, Effect
+from statorhom.physics.effect import Confusion, Effect, Words
 from statorhom.physics.parameter import EffectParameter
+from statorhom.physics.plan import plan_of
 from statorhom.study.study import StudyFiles
 
 # keys of the geometry file by section, and the step from which on they matter
@@ -30,12 +31,32 @@ class WrongInput(Effect):
         Confusion("loose_winding_mass", "weighing again"),
     )
 
+    coupon_words = Words(
+        "a mass or a dimension in the files contradicts the recordings",
+        None,
+        (
+            Confusion("wrong_input", "weighing and measuring the body again"),
+            Confusion("attached_mass", "shapes: a lump turns them, a wrong weight does not"),
+        ),
+    )
+
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         masses = [
             _candidate(stage.name, "mass_kg", stage.mass_kg, (("input", "mass_kg"),))
             for stage in files.study.stages
         ]
         return (*masses, *_dimensions(files))
+
+    def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        stage = files.study.stages[0]
+        masses = [_candidate(stage.name, "mass_kg", stage.mass_kg, (("input", "mass_kg"),))]
+        plan = plan_of(files)
+        sizes = {} if plan is None else plan.typed
+        kind = files.drawing.kind
+        return (
+            *masses,
+            *(_candidate(stage.name, k, v, (("input", k), ("section", kind))) for k, v in sizes.items()),
+        )
 
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
         key = candidate.chosen

@@ -12,7 +12,7 @@ from statorhom.report.document import Picture, text
 from statorhom.report.figures.canvas import FONT_PT, INK, PREDICTED, SIMULATED, new_figure, safe, svg, tidy
 from statorhom.results.diagnosis import FeatureRow
 
-SHORT = {"frequency": "frequency", "split": "two lines", "shift": "plane to plane", "damping": "damping"}
+SHORT = {"frequency": "frequency", "split": "two lines", "shift": "place to place", "damping": "damping"}
 MOST = 24
 TICKS = (0, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
@@ -22,7 +22,7 @@ class Miss:
     """All features of one kind of one mode: how many standard deviations off, together."""
 
     test: str
-    mode: tuple[int, int] | None
+    mode: tuple[int, ...] | None
     kind: str
     before: float
     after: float
@@ -30,7 +30,7 @@ class Miss:
 
 def misses(rows: Sequence[FeatureRow]) -> list[Miss]:
     """Features gathered by test, mode and kind, root mean squares; in the order of the tests and modes."""
-    gathered: dict[tuple[str, tuple[int, int] | None, str], list[FeatureRow]] = {}
+    gathered: dict[tuple[str, tuple[int, ...] | None, str], list[FeatureRow]] = {}
     for row in rows:
         gathered.setdefault((row.test, row.mode, row.kind), []).append(row)
     return [

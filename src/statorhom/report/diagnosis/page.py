@@ -34,7 +34,9 @@ def diagnosis_sections(diagnosis: Diagnosis, details: Details) -> tuple[Section,
 def diagnosis_document(diagnosis: Diagnosis, details: Details) -> Document:
     """A report of the diagnosis alone."""
     return Document(
-        "What the model of a stator left out",
+        "What the model of a stator left out"
+        if details.plan is None
+        else "What the model of a test piece left out",
         one_line(diagnosis.study),
         diagnosis_facts(diagnosis, details),
         diagnosis_sections(diagnosis, details),

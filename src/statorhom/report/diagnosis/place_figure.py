@@ -21,7 +21,7 @@ from statorhom.report.figures.canvas import (
     svg,
     tidy,
 )
-from statorhom.results.diagnosis import AngleRow, EffectResult, MachineRow, MapRow
+from statorhom.results.diagnosis import AngleRow, EffectResult, Location, MachineRow, MapRow
 from statorhom.study.message import one_line
 
 TINTS = LinearSegmentedColormap.from_list("tints", ["#ffffff", "#f6d9bf", "#d55e00"])
@@ -35,7 +35,7 @@ def place_figure(
     machine: MachineRow | None,
 ) -> Picture | None:
     """Error map with the effects' places over it, and the angular map below; None where nothing tells a place."""
-    placed = [e for e in effects if e.location is not None and e.location.angle_deg is not None]
+    placed = [e for e in effects if isinstance(e.location, Location) and e.location.angle_deg is not None]
     if row is None and not placed and not angles:
         return None
     around = len(angles) > 0
@@ -46,7 +46,7 @@ def place_figure(
         _colours(top, row)
     known = [
         *(row.z_mm if row else ()),
-        *(1.2 * e.location.z_mm for e in placed if e.location and e.location.z_mm),
+        *(1.2 * e.location.z_mm for e in placed if isinstance(e.location, Location) and e.location.z_mm),
     ]
     length = machine.length_mm if machine is not None else max(known, default=1.0)
     for effect in placed:
@@ -88,7 +88,7 @@ def _colours(axes: Axes, row: MapRow) -> None:
 def _place(axes: Axes, effect: EffectResult, length: float) -> None:
     """The place with its 90 % region; equivalent angles are drawn open."""
     place = effect.location
-    assert place is not None and place.angle_deg is not None
+    assert isinstance(place, Location) and place.angle_deg is not None
     z = place.z_mm if place.z_mm is not None else length / 2
     half = Z90 * place.z_sd_mm if place.z_sd_mm is not None else length / 2
     width = max(Z90 * (place.angle_sd_deg or 0.0), 1.2)
@@ -111,7 +111,7 @@ def _around(axes: Axes, angles: Sequence[AngleRow], placed: Sequence[EffectResul
     axes.fill_between(degrees, [100 * a.weight for a in angles], color=PREDICTED, alpha=0.25, linewidth=0)
     axes.plot(degrees, [100 * a.weight for a in angles], color=PREDICTED, linewidth=1.0)
     for effect in placed:
-        assert effect.location is not None
+        assert isinstance(effect.location, Location)
         for i, angle in enumerate(effect.location.angle_ambiguity_deg or ()):
             axes.axvline(angle, color=DATA, linewidth=1.2, linestyle="-" if i == 0 else "--")
     axes.set_ylim(0, 105)

@@ -35,18 +35,15 @@ def _table(rows: list[FeatureRow], changed: bool) -> Table:
     if changed:
         head.append(Column(text("with the explanation"), "right"))
     body = []
-    for row in rows:
+    for row in (r for r in rows if r.kind != "shape"):
         values = [row.measured, row.before, *([row.after] if changed else [])]
         cells = [row.test, mode_words(row.mode), feature_words(row), *(_shown(row.kind, v) for v in values)]
         body.append(Row(tuple(text(c) for c in cells)))
-    return Table(
-        tuple(head),
-        tuple(body),
-        text(
-            "Distances of lines are relative to the frequency; the two rows of a mode are the part that stands at 0° "
-            "and the part that is turned by an eighth of a wave’s period."
-        ),
+    lines = (
+        "Distances of lines are relative to the frequency; the two rows of a mode are the part that stands at 0° "
+        "and the part that is turned by an eighth of a wave’s period."
     )
+    return Table(tuple(head), tuple(body), text(lines) if any(r.kind == "split" for r in rows) else ())
 
 
 def _shown(kind: str, value: float) -> str:

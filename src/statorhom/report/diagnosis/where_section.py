@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from statorhom.report.diagnosis.place_figure import place_figure
+from statorhom.report.diagnosis.plan_figure import plan_figure
 from statorhom.report.diagnosis.words import effect_words, mode_words
 from statorhom.report.document import Block, Column, Paragraph, Row, Section, Table, text
 from statorhom.results.diagnosis import Details, Diagnosis, MapRow
@@ -22,13 +23,19 @@ def where_section(d: Diagnosis, details: Details) -> Section:
         blocks.append(
             Paragraph(
                 text(
-                    "A mode is named (r, n): r waves around the stator, n places along its axis that stand still."
+                    "A mode is told by its row in the table."
+                    if all(len(mode) == 1 for mode in m.modes)
+                    else "A mode is named (r, n): r waves around the stator, n places along its axis that stand still."
                 ),
                 "note",
             )
         )
     row = _map(d, details)
-    picture = place_figure(d.effects, row, details.angles if d.verdict != "none" else (), details.machine)
+    if details.plan is not None:
+        picture = plan_figure(d.effects, details.plan)
+    else:
+        angles = details.angles if d.verdict != "none" else ()
+        picture = place_figure(d.effects, row, angles, details.machine)
     if picture is not None:
         blocks.append(picture)
     blocks += _opposite(details)
@@ -87,6 +94,8 @@ def _no_picture(d: Diagnosis, details: Details) -> str:
     if d.verdict == "none":
         return "There is no place to show: no test contradicts the model."
     seen = {f.kind for f in details.features}
+    if details.plan is not None:
+        return "What is missing has no place on the body, or these measurements do not tell it."
     if "split" in seen or d.effects:
         return "What is missing has no place around the stator, or these measurements do not tell it."
     return (

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from statorhom.report.wording import constant_interval, constant_meaning, constant_value, rounded
-from statorhom.results.diagnosis import ConstantRow, EffectResult, Estimated, FeatureRow
+from statorhom.results.diagnosis import ConstantRow, EffectResult, Estimated, FeatureRow, PlanLocation
 from statorhom.study.message import one_line
 
 Z90 = 1.6448536269514722
@@ -31,7 +31,8 @@ GRAMS = 0.5  # kg: below, masses are told in grams
 KINDS = {
     "frequency": "frequency",
     "split": "distance and angle of its two lines",
-    "shift": "shift from one measuring plane to the next",
+    "shift": "shift from one measuring place to the next",
+    "shape": "shape",
     "damping": "damping",
     "density": "density of the sheets",
 }
@@ -44,10 +45,12 @@ def effect_words(effect: str) -> str:
     return one_line(effect.replace("_", " ").replace("+", " and "))
 
 
-def mode_words(mode: tuple[int, int] | None) -> str:
-    """(r, n), or ? where the order is not known."""
+def mode_words(mode: tuple[int, ...] | None) -> str:
+    """(r, n), or ? where the order is not known; the row in its table of a mode that has no such name."""
     if mode is None:
         return ""
+    if len(mode) == 1:
+        return str(mode[0])
     return f"({mode[0] if mode[0] >= 0 else '?'}, {mode[1]})"
 
 
@@ -103,6 +106,8 @@ def figure(value: float, interval: tuple[float, float] | None = None) -> str:
 def place_words(effect: EffectResult) -> str:
     """Where an effect sits; empty where it sits nowhere."""
     place = effect.location
+    if isinstance(place, PlanLocation):
+        return _on_plan(place)
     parts = []
     if place is not None and place.angle_deg is not None:
         sd = place.angle_sd_deg or 0.0
@@ -113,6 +118,13 @@ def place_words(effect: EffectResult) -> str:
     if place is not None and place.z_mm is not None and place.z_sd_mm is not None:
         parts.append(f"{place.z_mm:.0f} ± {Z90 * place.z_sd_mm:.0f} mm above the core’s lower end")
     return ", ".join(parts)
+
+
+def _on_plan(place: PlanLocation) -> str:
+    others = [f"({x:.0f}, {y:.0f})" for x, y in place.place_ambiguity_mm[1:]]
+    also = f" (or, equally possible: {', '.join(others)} mm)" if others else ""
+    x, y = f"{place.x_mm:.0f} ± {Z90 * place.x_sd_mm:.0f}", f"{place.y_mm:.0f} ± {Z90 * place.y_sd_mm:.0f}"
+    return f"at x = {x} mm, y = {y} mm{also}"
 
 
 def constant_words(name: str) -> tuple[str, str]:

@@ -1,0 +1,63 @@
+"""What of a diagnosis depends on the kind of body: its model, and how places on it are told and drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from statorhom.diagnose.baseline import Baseline, baseline
+from statorhom.diagnose.explanations import Explanation
+from statorhom.diagnose.location import located
+from statorhom.diagnose.mirrored import at_likelier_height
+from statorhom.diagnose.next_measurement import Choice, next_measurement
+from statorhom.diagnose.place_rows import angle_rows, machine_row, map_rows, opposite_rows
+from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.sharper import refined, sharpened
+from statorhom.results.diagnosis import Location, PlanLocation
+from statorhom.study.study import StudyFiles
+
+Refined = Callable[[Sequence[Explanation], Sequence[np.ndarray], dict[str, int]], list[Explanation]]
+
+
+@dataclass(frozen=True)
+class Approach:
+    """A kind of body.
+
+    Parameters
+    ----------
+    baseline : fits the declared model.
+    refined : the leading explanations in models of their own.
+    final : the explanation that is reported, in its own model and at the likeliest of places that look alike.
+    located : where an explanation's effect of a number is; None where it is nowhere.
+    next_measurement : what tells the best explanation from the others.
+    pictures : what the pictures of a diagnosis need, as fields of its details: from the study, the declared model, the
+        best explanation and whether it is named, and whether anything is missing.
+    """
+
+    baseline: Callable[..., Baseline]
+    refined: Refined
+    final: Callable[[Explanation], Explanation]
+    located: Callable[[Explanation, int], Location | PlanLocation | None]
+    next_measurement: Callable[[Explanation, Sequence[Explanation]], Choice]
+    pictures: Callable[[StudyFiles, Refit, Explanation, bool, bool], Mapping[str, Any]]
+
+
+def _ring_final(explanation: Explanation) -> Explanation:
+    return at_likelier_height(sharpened(explanation))
+
+
+def _ring_pictures(
+    files: StudyFiles, base: Refit, best: Explanation, named: bool, missing: bool
+) -> Mapping[str, Any]:
+    return {
+        "angles": angle_rows(base, best),
+        "machine": machine_row(files),
+        "maps": map_rows(base) if missing else (),
+        "opposite": opposite_rows(best) if named else (),
+    }
+
+
+RING = Approach(baseline, refined, _ring_final, located, next_measurement, _ring_pictures)

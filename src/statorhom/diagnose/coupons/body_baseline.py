@@ -1,0 +1,136 @@
+"""The declared model of a coupon or a wing fitted to its tests: where every explanation starts from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from statorhom.diagnose.baseline import SAME_HZ, SNAPSHOTS, new_constants
+from statorhom.diagnose.constants import Constants, study_constants
+from statorhom.diagnose.coupons.body_hypothesis import BodyHypothesis
+from statorhom.diagnose.coupons.body_stage import body_stage, with_reference
+from statorhom.diagnose.coupons.body_study import BodyStudy
+from statorhom.diagnose.explanations import Explanation
+from statorhom.diagnose.features import SCATTER_SD
+from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.refit import Refit, evaluated, refit
+from statorhom.diagnose.valleys import optima, trials_around
+from statorhom.errors import IdentificationError, StatorhomError
+from statorhom.geometry.tested_object import ObjectGeometry
+from statorhom.identify.settings import Settings
+from statorhom.identify.stage_setup import StageSetup, stage_setup
+from statorhom.model.affine import Materials
+from statorhom.physics.declared import declared_effects
+from statorhom.physics.plan import plan_of
+from statorhom.study.message import input_error
+from statorhom.study.study import StudyFiles
+from statorhom.study.study_file import FREE
+
+FloatArray = npt.NDArray[np.float64]
+BodyRefit = Refit[BodyHypothesis]
+
+ROUNDS = 4
+
+
+def body_baseline(
+    files: StudyFiles,
+    geometry: ObjectGeometry,
+    tests: Mapping[str, MeasuredTest],
+    settings: Settings,
+) -> tuple[BodyRefit, tuple[FloatArray, ...]]:
+    """The declared model's optimum, and constants at its other optima.
+
+    Raises
+    ------
+    IdentificationError
+        If the study has no free test.
+    InputFileError
+        If the body is a tube.
+    StatorhomError
+        If files, masses or tests do not allow it.
+    """
+    plan = plan_of(files)
+    if plan is None:
+        raise input_error(
+            files.geometry_path, "kind", f"a {files.drawing.kind} cannot be diagnosed yet", "use fit or run"
+        )
+    setup = stage_setup(files, geometry, 0)
+    own = [tests[t.name] for t in setup.tests if t.name in tests and t.support == FREE]
+    if not own:
+        raise IdentificationError(f"{files.path}: no stage has a free test; there is nothing to diagnose")
+    constants = study_constants([setup], (), SCATTER_SD)
+    effects = tuple(d.action for d in declared_effects(files))
+    study = BodyStudy(files, constants, (), effects)
+    places = new_constants(constants, setup)
+    trials = trials_around(np.zeros(len(constants)), places, settings.seed)
+    snapshots = _snapshots(study, setup, trials, min(SNAPSHOTS, 1 + len(places)))
+    # other dimensions are other Hooke entries
+    varied = (
+        frozenset(r.region for r in setup.materials.regions)
+        if plan.typed
+        else varied_regions(constants, setup)
+    )
+    study = study.with_stages((body_stage(setup, own, snapshots, settings, varied),))
+    found, *others = optima(BodyHypothesis(study), trials)
+    found = _settled(found)
+    return evaluated(found.hypothesis, found.z), tuple(r.z for r in others)
+
+
+def varied_regions(constants: Constants, setup: StageSetup) -> frozenset[str]:
+    """Regions that have constants to be found."""
+    free = {constants.names[i].partition(":")[2].partition(".")[0] for i in new_constants(constants, setup)}
+    return frozenset(r.region for r in setup.materials.regions if r.source in free)
+
+
+def _snapshots(
+    study: BodyStudy, setup: StageSetup, points: Sequence[FloatArray], most: int
+) -> list[Materials]:
+    """Materials of the first points that have any."""
+    found: list[Materials] = []
+    for z in points:
+        try:
+            found.append(study.materials(setup, study.constants.values(z), study.effects))
+        except StatorhomError:
+            continue
+        if len(found) == most:
+            break
+    if not found:
+        raise IdentificationError(
+            f"stage {setup.keys.name!r}: no material is possible; check masses and priors"
+        )
+    return found
+
+
+def _settled(found: BodyRefit) -> BodyRefit:
+    """Refitted with a basis of its own until that moves no frequency any more."""
+    for number in range(ROUNDS):
+        before = _frequencies(found)
+        found = at_own_reference(found, mesh_known=number > 0)
+        if np.abs(_frequencies(found) - before).max() < SAME_HZ:
+            break
+    return found
+
+
+def at_own_reference(found: BodyRefit, *, mesh_known: bool = False) -> BodyRefit:
+    """The same with a basis (and mesh errors, unless they are known) of its own materials, refitted."""
+    hypothesis = found.hypothesis
+    study, [stage] = hypothesis.study, hypothesis.study.stages
+    values = study.constants.values(found.z[: hypothesis.constants])
+    materials = study.materials(stage.setup, values, ())
+    moved = with_reference(stage, materials, mesh_known=mesh_known)
+    return refit(replace(hypothesis, study=study.with_stages((moved,)), held=None), found.z)
+
+
+def _frequencies(found: BodyRefit) -> FloatArray:
+    return np.array([f.predicted for f in found.hypothesis.features(found.z) if f.kind == "frequency"])
+
+
+def sharpened_body(explanation: Explanation[BodyHypothesis]) -> Explanation[BodyHypothesis]:
+    """An explanation with a basis of its own materials; mesh errors hardly depend on them."""
+    try:
+        return replace(explanation, refit=at_own_reference(explanation.refit, mesh_known=True))
+    except (StatorhomError, KeyError):
+        return explanation

@@ -1,0 +1,208 @@
+"""The tested coupon or wing on its mesh, with the mesh's own error of every mode."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from statorhom.diagnose.features import own_sd
+from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.stage_model import BAND, FINER
+from statorhom.errors import IdentificationError
+from statorhom.identify.model_error import ModelError
+from statorhom.identify.refinement import MeshSeries
+from statorhom.identify.settings import Settings
+from statorhom.identify.stage_problem import SEEN
+from statorhom.identify.stage_setup import StageSetup
+from statorhom.mesh.mirror_mesh import MirrorMesh
+from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.convergence import ModeKey, extrapolate, mode_keys
+from statorhom.model.free_modes import problem_at
+from statorhom.model.modal.acted_body import ActedBody
+from statorhom.model.modal.modal_body import modal_body
+
+FloatArray = npt.NDArray[np.float64]
+
+SPARE = 4  # modes beyond the band that are predicted too
+
+
+@dataclass(frozen=True, eq=False)
+class ReferenceModes:
+    """What is known of the modes of the reference, the order being that of `ModalBody.reference`; 0 of rigid bodies.
+
+    Parameters
+    ----------
+    log_factor : (m,) ln of the extrapolated frequency over the mesh's.
+    shared, own : (m,) relative standard deviations of the mesh's error, common to all modes and of each by itself.
+    visibility : (m,) 0 … 1.
+    """
+
+    log_factor: FloatArray
+    shared: FloatArray
+    own: FloatArray
+    visibility: FloatArray
+
+
+@dataclass(frozen=True)
+class MeshError:
+    """What a finer mesh tells of the modes, by parities and rank: mesh errors, and how well they are seen, 0 … 1."""
+
+    error: ModelError = field(default_factory=ModelError)
+    seen: Mapping[ModeKey, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class BodyStage:
+    """A coupon near the materials that matter.
+
+    Parameters
+    ----------
+    setup : geometry, regions, tests.
+    tests : what was measured.
+    series : its mesh and a finer one.
+    body : its modal basis.
+    varied : regions that have unknown constants.
+    error : what a finer mesh tells.
+    known : the same of the reference's modes.
+    """
+
+    setup: StageSetup
+    tests: tuple[MeasuredTest, ...]
+    series: MeshSeries
+    body: ActedBody
+    varied: frozenset[str]
+    error: MeshError
+    known: ReferenceModes
+    _projectors: dict[str, FloatArray] = field(default_factory=dict, repr=False)
+
+    @property
+    def name(self) -> str:
+        """Of the stage."""
+        return self.setup.keys.name
+
+    @property
+    def count(self) -> int:
+        """Modes that are predicted, rigid bodies included."""
+        basis = self.body.basis
+        return int(np.count_nonzero(basis.reference_hz < basis.highest_hz)) + SPARE
+
+    def motion(self, test: MeasuredTest) -> FloatArray:
+        """Motion (p, k) of the basis at the points of a test, along their directions."""
+        assert test.points is not None
+        moved = self.body.basis.motion(test.points.positions)
+        return np.asarray(np.einsum("pd,pdk->pk", test.points.directions, moved))
+
+    def projector(self, test: MeasuredTest) -> FloatArray:
+        """From motion at the points of a test to amplitudes (c, p) of the reference's lowest modes."""
+        if test.name not in self._projectors:
+            assert test.points is not None
+            basis = self.body.basis
+            most = min(len(test.points.positions) // 2, basis.rigid + len(test.modes) + SPARE)
+            shapes = self.motion(test) @ basis.reference[:, :most]
+            self._projectors[test.name] = np.asarray(np.linalg.pinv(shapes, rcond=1e-2), dtype=float)
+        return self._projectors[test.name]
+
+
+def body_stage(
+    setup: StageSetup,
+    tests: Sequence[MeasuredTest],
+    snapshots: Sequence[Materials],
+    settings: Settings,
+    varied: frozenset[str],
+) -> BodyStage:
+    """A coupon at the first of some materials, good near all of them.
+
+    Parameters
+    ----------
+    varied : regions that have unknown constants.
+
+    Raises
+    ------
+    IdentificationError
+        If the body's mesh has no planes of symmetry that the basis could be made of.
+    """
+    assert setup.step is not None
+    series = MeshSeries(setup.step, settings.density, (1.0, FINER))
+    top = BAND * max(mode.frequency_hz for test in tests for mode in test.modes)
+    model = series.coarsest
+    if not isinstance(model.mesh, MirrorMesh):
+        raise IdentificationError(f"{setup.keys.name}: this body cannot be diagnosed yet")
+    body = _body(model, snapshots, top, varied)  # type: ignore[arg-type]
+    zeros = np.zeros(len(body.basis.reference_hz))
+    return BodyStage(
+        setup,
+        tuple(tests),
+        series,
+        body,
+        varied,
+        MeshError(),
+        ReferenceModes(zeros, zeros, zeros, zeros + 1.0),
+    )
+
+
+def _body(
+    model: AffineModel[MirrorMesh],
+    snapshots: Sequence[Materials],
+    highest_hz: float,
+    varied: frozenset[str],
+) -> ActedBody:
+    return ActedBody(model, snapshots[0], modal_body(model, snapshots, highest_hz, varied))
+
+
+def with_reference(
+    stage: BodyStage, materials: Materials, others: Sequence[Materials] = (), *, mesh_known: bool = False
+) -> BodyStage:
+    """The stage at another reference, its basis good near other materials too.
+
+    Parameters
+    ----------
+    mesh_known : the mesh's errors are those that were computed before.
+    """
+    body = _body(stage.body.model, [materials, *others], stage.body.basis.highest_hz, stage.varied)
+    error = stage.error if mesh_known else _mesh_error(stage.series, body)
+    return replace(stage, body=body, error=error, known=_of_reference(error, body), _projectors={})
+
+
+def _mesh_error(series: MeshSeries, body: ActedBody) -> MeshError:
+    """Errors of the mesh, from a finer one."""
+    basis = body.basis
+    keys = _reference_keys(body)
+    finer = problem_at(series.models[1], body.reference).solve(basis.highest_hz)
+    fine = mode_keys(finer.modes)
+    coarse = {key: float(basis.reference_hz[i]) for i, key in enumerate(keys) if key is not None}
+    limits = {
+        key: extrapolate(np.array([1.0, 1 / FINER]), np.array([coarse[key], fine[key].frequency_hz]))[0]
+        for key in coarse
+        if key in fine
+    }
+    factors = {key: limit / coarse[key] for key, limit in limits.items()}
+    error = ModelError(factors=factors, corrections={key: f - 1.0 for key, f in factors.items()})
+    return MeshError(error, {key: min(1.0, mode.visibility / SEEN) for key, mode in fine.items()})
+
+
+def _of_reference(found: MeshError, body: ActedBody) -> ReferenceModes:
+    error, keys = found.error, _reference_keys(body)
+    return ReferenceModes(
+        np.array([0.0 if k is None else float(np.log(error.factor(k))) for k in keys]),
+        np.array([0.0 if k is None else error.shared(k) for k in keys]),
+        np.array([0.0 if k is None else own_sd(error, k) for k in keys]),
+        np.array([0.0 if k is None else found.seen.get(k, 1.0) for k in keys]),
+    )
+
+
+def _reference_keys(body: ActedBody) -> list[ModeKey | None]:
+    """Parity and rank of every mode of the reference; None of rigid bodies."""
+    basis = body.basis
+    parities = basis.parities[np.abs(basis.reference).argmax(axis=0)]
+    ranks: dict[int, int] = {}
+    found: list[ModeKey | None] = []
+    for parity, hz in zip(parities.tolist(), basis.reference_hz.tolist(), strict=True):
+        if hz == 0.0:
+            found.append(None)
+            continue
+        ranks[parity] = ranks.get(parity, -1) + 1
+        found.append((parity, 0, ranks[parity]))
+    return found

@@ -1,0 +1,90 @@
+"""The optima of the declared model: many points of the prior tried in wide valleys, the best of them sharpened."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from scipy.stats import norm, qmc
+from typing_extensions import TypeVar
+
+from statorhom.diagnose.any_hypothesis import AnyHypothesis
+from statorhom.diagnose.refit import Refit, refit
+from statorhom.errors import IdentificationError, StatorhomError
+
+_H = TypeVar("_H", bound=AnyHypothesis)
+
+# points that are tried, refitted in wide valleys, and sharpened
+TRIALS, STARTS, SHARPENED = 200, 16, 3
+APART = 1.0  # prior standard deviations between starts
+BEHIND = 20.0  # of the objective in wide valleys: what stays so far behind is no other optimum worth keeping
+COARSE = 0.03  # discrepancy with which valleys are found
+SPREAD = 1.1  # of the prior: how far materials to try lie apart
+
+
+def trials_around(z: np.ndarray, places: Sequence[int], seed: int) -> list[np.ndarray]:
+    """The prior's median and points around it, in the new constants alone."""
+    found = [z]
+    if places:
+        cube = qmc.LatinHypercube(len(places), seed=seed).random(TRIALS)
+        for row in SPREAD * norm.ppf(0.02 + 0.96 * cube):
+            point = z.copy()
+            point[list(places)] = row
+            found.append(point)
+    return found
+
+
+def optima(blank: _H, trials: Sequence[np.ndarray]) -> list[Refit[_H]]:
+    """Different optima, the best first: found in wide valleys, then sharpened.
+
+    Parameters
+    ----------
+    blank : the declared model.
+    trials : points to begin from.
+
+    Raises
+    ------
+    IdentificationError
+        If no point could be fitted.
+    """
+    coarse = replace(blank, discrepancy=COARSE)
+    scored = []
+    for z in trials:
+        try:
+            hypothesis = coarse.paired(z)
+            scored.append((float(np.sum(hypothesis.residuals(z) ** 2) + z @ z) + hypothesis.missed, z))
+        except StatorhomError:
+            continue
+    scored.sort(key=lambda pair: pair[0])
+    wide: list[Refit[_H]] = []
+    for z in _apart([z for _, z in scored]):
+        # what promises nothing beside the best so far is not followed
+        worth = min((r.objective for r in wide), default=np.inf) + BEHIND
+        wide += [r] if (r := _refitted(coarse, z, worth)) is not None else []
+    wide.sort(key=lambda r: r.objective)
+    found = [r for w in wide[:SHARPENED] if (r := _refitted(blank, w.z)) is not None]
+    if not found:
+        raise IdentificationError("no start of the declared model could be fitted; check masses and tables")
+    found.sort(key=lambda r: r.objective)
+    chosen: list[Refit[_H]] = []
+    for r in found:
+        if all(np.linalg.norm(r.z - other.z) > APART for other in chosen):
+            chosen.append(r)
+    return chosen
+
+
+def _apart(points: Sequence[np.ndarray]) -> list[np.ndarray]:
+    """The first points that are no neighbours of better ones."""
+    chosen: list[np.ndarray] = []
+    for z in points:
+        if len(chosen) < STARTS and all(np.linalg.norm(z - other) > APART for other in chosen):
+            chosen.append(z)
+    return chosen
+
+
+def _refitted(hypothesis: _H, z: np.ndarray, worth: float = np.inf) -> Refit[_H] | None:
+    try:
+        return refit(hypothesis, z, worth=worth)
+    except StatorhomError:
+        return None

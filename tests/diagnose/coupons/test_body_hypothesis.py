@@ -1,0 +1,113 @@
+"""A plate's residuals: slopes, pairing with and without shapes, and what a lump does to them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from body_studies import plate_hypothesis
+
+from statorhom.diagnose.coupons.body_hypothesis import BodyHypothesis
+from statorhom.diagnose.derivatives import difference, jacobian
+from statorhom.diagnose.measured import MeasuredPoints
+from statorhom.physics.library import all_candidates
+
+FREQUENCIES = np.array([146.7, 277.9, 387.2, 407.7, 481.4])
+GRID = np.array([[x, y, 0.004] for x in np.linspace(0.02, 0.28, 6) for y in np.linspace(0.02, 0.18, 4)])
+LUMP = {"mass_kg": 0.01, "x_m": 0.22, "y_m": 0.13}
+
+
+@pytest.fixture(scope="module")
+def plain(tmp_path_factory: pytest.TempPathFactory) -> BodyHypothesis:
+    return plate_hypothesis(tmp_path_factory.mktemp("plain"), FREQUENCIES)
+
+
+@pytest.fixture(scope="module")
+def seen(plain: BodyHypothesis) -> BodyHypothesis:
+    """The same with shapes at points, those of the model itself with a lump."""
+    upwards = np.tile([0.0, 0.0, 1.0], (len(GRID), 1))
+    blank = MeasuredPoints(GRID, upwards, np.ones((5, len(GRID))), np.full((5, len(GRID)), 1e-3))
+    [stage] = plain.study.stages
+    bare = replace(stage.tests[0], points=blank)
+    lumped = with_lump(replace(plain, study=plain.study.with_stages((replace(stage, tests=(bare,)),))))
+    told = lumped.predictions(lumped_at(lumped))["free"]
+    assert told.motion is not None
+    motion = told.motion[:, :5].T.copy()
+    motion /= np.abs(motion).max(axis=1, keepdims=True)
+    modes = tuple(
+        replace(mode, frequency_hz=float(np.exp(f))) for mode, f in zip(bare.modes, told.log_f, strict=False)
+    )
+    test = replace(bare, modes=modes, points=replace(blank, motion=motion))
+    return replace(plain, study=plain.study.with_stages((replace(stage, tests=(test,)),)))
+
+
+def with_lump(h: BodyHypothesis) -> BodyHypothesis:
+    [lump] = [c for c in all_candidates(h.study.files) if c.effect == "attached_mass"]
+    return replace(h, candidates=(lump,), held=None)
+
+
+def lumped_at(h: BodyHypothesis, **changes: float) -> np.ndarray:
+    values = LUMP | changes
+    own = [p.internal(values[p.name]) for p in h.candidates[0].parameters]
+    return np.r_[np.zeros(h.constants), own]
+
+
+def test_slopes_are_those_of_differences(seen: BodyHypothesis, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("statorhom.diagnose.derivatives.EFFECT_STEP", 1e-4)
+    h = with_lump(seen)
+    z = lumped_at(h, mass_kg=0.008)
+    h = h.paired(z)
+    found = jacobian(h, z)
+    start = h.features(z)
+    exact = np.array([difference(h, z, j, start) for j in range(len(z))]).T
+    linear = np.array([abs(f.residual) < 8 for f in start])
+    assert linear.sum() > 20
+    # amplitudes in modes beyond those that are solved are missing from the slopes
+    np.testing.assert_allclose(
+        found[linear], exact[linear], rtol=0.03, atol=0.03 * np.abs(exact[linear]).max()
+    )
+
+
+def test_without_shapes_modes_pair_by_frequency(plain: BodyHypothesis) -> None:
+    z = np.zeros(plain.constants)
+    held = plain.paired(z).held
+    assert held is not None
+    assert held["free"] == (0, 1, 2, 3, 4)
+
+
+def test_with_shapes_modes_pair_by_shape(seen: BodyHypothesis) -> None:
+    [stage] = seen.study.stages
+    test = stage.tests[0]
+    assert test.points is not None
+    # the shapes of the third and fourth mode, which lie near each other, in each other's place
+    turned = test.points.motion[[0, 1, 3, 2, 4]]
+    mixed = replace(test, points=replace(test.points, motion=turned))
+    h = replace(seen, study=seen.study.with_stages((replace(stage, tests=(mixed,)),)))
+    held = h.paired(np.zeros(h.constants)).held
+    assert held is not None
+    assert held["free"] == (0, 1, 3, 2, 4)
+
+
+def test_shapes_tell_a_lump_from_its_mirror_images(seen: BodyHypothesis) -> None:
+    h = with_lump(seen)
+    misfit = {}
+    for x, y in ((0.22, 0.13), (0.08, 0.13), (0.22, 0.07), (0.08, 0.07)):
+        z = lumped_at(h, x_m=x, y_m=y)
+        residuals = h.paired(z).features(z)
+        misfit[x, y] = sum(f.residual**2 for f in residuals if f.kind == "shape")
+        frequencies = [f.residual for f in residuals if f.kind == "frequency"]
+        assert np.abs(frequencies).max() < 1e-6  # which do not tell them apart
+    assert misfit[0.22, 0.13] < 1e-9
+    assert min(value for place, value in misfit.items() if place != (0.22, 0.13)) > 20
+
+
+def test_a_wrong_weight_is_no_other_frequency_than_a_softer_plate(plain: BodyHypothesis) -> None:
+    """All moduli and the weight in one ratio: the shared slope that a scan projects out."""
+    z = np.zeros(plain.constants)
+    J = jacobian(plain.paired(z), z)
+    names = plain.study.constants.names
+    moduli = [i for i, n in enumerate(names) if n.endswith("_pa")]
+    weight = J[:, names.index("plate:mass_kg")]
+    sd = np.array([plain.study.constants.items[i].sd for i in moduli])
+    together = J[:, moduli] @ (1 / sd)  # d residuals / d ln E
+    relative = plain.study.constants.items[names.index("plate:mass_kg")]
+    np.testing.assert_allclose(together, -weight * relative.median / relative.sd, rtol=1e-3)

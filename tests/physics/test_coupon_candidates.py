@@ -1,0 +1,69 @@
+"""What the library offers for plates, beams and wings: nothing that needs slots, frames or a circumference."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from coupon_study import BEAM, PLATE, study_text, write_study
+from statorhom.physics.library import all_candidates, library
+from statorhom.physics.plan import WingPlan, plan_of
+from statorhom.study.study import StudyFiles, load_study
+from wing_study import write_wing
+
+OFFERED = {"attached_mass", "local_stiffness", "suspension_stiffness", "wrong_input"}
+
+
+def coupon(folder: Path, region: str, geometry: str) -> StudyFiles:
+    (folder / "free.csv").write_text("frequency_hz\n100\n")
+    text = study_text(region, "orthotropic", 0.4, 'modal_table = "free.csv"')
+    return load_study(write_study(folder, geometry, text))
+
+
+@pytest.mark.parametrize(("region", "geometry"), [("plate", PLATE), ("beam", BEAM)])
+def test_coupons_are_offered_what_they_can_have(tmp_path: Path, region: str, geometry: str) -> None:
+    files = coupon(tmp_path, region, geometry)
+    candidates = all_candidates(files)
+    assert {c.effect for c in candidates} == OFFERED
+    inputs = {c.chosen["input"] for c in candidates if c.effect == "wrong_input"}
+    height = "thickness_mm" if region == "plate" else "height_mm"
+    assert inputs == {"mass_kg", "length_mm", "width_mm", height}
+
+
+def test_a_wing_is_offered_its_weight_but_no_dimension(tmp_path: Path) -> None:
+    files = load_study(write_wing(tmp_path))
+    candidates = all_candidates(files)
+    assert {c.effect for c in candidates} == OFFERED
+    assert [c.chosen["input"] for c in candidates if c.effect == "wrong_input"] == ["mass_kg"]
+
+
+def test_a_lump_acts_where_its_parameters_say(tmp_path: Path) -> None:
+    files = coupon(tmp_path, "plate", PLATE)
+    [lump] = [c for c in all_candidates(files) if c.effect == "attached_mass"]
+    assert lump.repeats
+    values = {"mass_kg": 0.01, "x_m": 0.1, "y_m": 0.05}
+    [attached] = library()["attached_mass"].action(lump, values, files).attachments
+    assert attached.place == (0.1, 0.05, 0.004)
+    assert attached.mass_kg == 0.01
+    assert attached.stiffness == (0.0, 0.0, 0.0)
+
+
+def test_a_suspension_holds_both_sides_with_half_each(tmp_path: Path) -> None:
+    files = coupon(tmp_path, "plate", PLATE)
+    [springs] = [c for c in all_candidates(files) if c.effect == "suspension_stiffness"]
+    values = {"stiffness_n_per_m": 1e4, "x_m": 0.1, "y_m": 0.05}
+    action = library()["suspension_stiffness"].action(springs, values, files)
+    assert [a.place[0] for a in action.attachments] == pytest.approx([0.1, 0.2])
+    assert sum(a.stiffness[2] for a in action.attachments) == 1e4
+    assert action.touches("plate", "free")
+    assert not action.touches("plate", "another")
+
+
+def test_a_place_on_a_wing_lies_on_it(tmp_path: Path) -> None:
+    plan = plan_of(load_study(write_wing(tmp_path)))
+    assert isinstance(plan, WingPlan)
+    tip = plan.on_top({"chord_share": 1.0, "y_m": -0.4})
+    assert tip[0] == pytest.approx(0.4 * np.tan(np.radians(10.0)) + 0.2)
+    right, left = plan.both_sides({"chord_share": 0.5, "y_m": 0.2})
+    assert left[:2] == (right[0], -right[1])
+    assert max(x for x, _ in plan.outline) == pytest.approx(max(tip[0], 0.3))
