@@ -14,6 +14,9 @@ from statorhom.diagnose.held_out import HeldOut
 Verdict = Literal["none", "named", "ambiguous", "unknown"]
 MAX_T_P = 0.01
 OVER_NOTHING, OVER_OTHERS = 5.0, 3.0  # of log evidence
+RIVAL = (
+    8.0  # log evidence behind the best one within which an explanation counts where no held-out mode decides
+)
 ADEQUATE = 0.01
 STABLE = 0.8
 FEW = 4  # modes that show an effect, below which three folds cannot decide
@@ -33,7 +36,7 @@ class Evidence:
     nothing_adequacy : and of the declared model, with every row.
     within : whether all magnitudes lie inside their physical ranges, off the bounds.
     stability : share of resamplings with the same winner.
-    rivals : number of other sound explanations that the evidence does not tell from the best one.
+    rivals : number of other sound explanations that the evidence alone does not rule out.
     """
 
     p_value: float
@@ -74,6 +77,8 @@ def decide(evidence: Evidence) -> Verdict:
         return "none" if evidence.nothing_adequacy > ADEQUATE or evidence.p_value >= MAX_T_P else "unknown"
     if not evidence.sound or not (evidence.predicts or evidence.undecided):
         return "unknown" if evidence.nothing_adequacy <= ADEQUATE else "none"
+    if not evidence.predicts:
+        return "ambiguous"
     # resamplings are lost to rivals alone, so that an unstable winner has some
     alone = evidence.over_others > OVER_OTHERS and evidence.stability >= STABLE
     return "named" if alone else "ambiguous"

@@ -46,19 +46,5 @@ def _(h: Hypothesis, z: FloatArray) -> FloatArray:
     known = by_frequency(h, z, told, base)
     nothing = np.zeros(len(base))  # a constant of a step that has no test
     columns = [known.get(j, nothing)[seen] for j in range(h.constants)]
-    columns += [_effect_column(h, z, j, seen, start) for j in range(h.constants, len(z))]
+    columns += [difference(h, z, j, start) for j in range(h.constants, len(z))]
     return np.array(columns).T.reshape(len(start), len(z))
-
-
-def _effect_column(
-    h: Hypothesis, z: FloatArray, j: int, seen: Sequence[int], start: Sequence[Feature]
-) -> FloatArray:
-    for sign in (1.0, -1.0):
-        moved = z.copy()
-        moved[j] += sign * EFFECT_STEP
-        try:
-            found, _ = h.all_features(moved)
-        except StatorhomError:
-            continue
-        return slopes_of(start, [found[i] for i in seen], sign * EFFECT_STEP)
-    return np.zeros(len(start))

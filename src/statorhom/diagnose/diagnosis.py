@@ -14,7 +14,7 @@ from statorhom.diagnose.approach import RING, Approach
 from statorhom.diagnose.baseline import Baseline
 from statorhom.diagnose.coupons.body_approach import BODY
 from statorhom.diagnose.decision import (
-    OVER_OTHERS,
+    RIVAL,
     Evidence,
     Verdict,
     decide,
@@ -189,7 +189,7 @@ def _evidence(
         nothing_adequacy=none.adequacy,
         within=within_bounds(best),
         stability=stability([common, none, *rest[: COMPARED - 2]], seed),
-        rivals=sum(own - totals[e.effects] <= OVER_OTHERS and is_sound(e) for e in rest),
+        rivals=sum(own - totals[e.effects] <= RIVAL and is_sound(e) for e in rest),
     )
 
 
