@@ -77,14 +77,17 @@ class HeldOut:
     @property
     def falls(self) -> bool:
         """Whether the error falls by enough, and by more than chance."""
-        if not self.groups or self.after_rms > (1 - LEAST_FALL) * self.before_rms:
+        if not self.groups:
             return False
         # logarithms: one large error is not all that counts; nothing is smaller than its noise
         ratio = [
             np.log(max(b, n) / max(a, n)) for b, a, n in zip(self.before, self.after, self.noise, strict=True)
         ]
+        mean, least = float(np.mean(ratio)), 1 - LEAST_FALL
+        if self.after_rms > least * self.before_rms and np.exp(-mean) > least:
+            return False
         spread = float(np.std(ratio, ddof=1)) / np.sqrt(len(ratio)) if len(ratio) > 1 else np.inf
-        return float(np.mean(ratio)) > ERRORS * spread or self._by_chi2
+        return mean > ERRORS * spread or self._by_chi2
 
     @property
     def _by_chi2(self) -> bool:
@@ -188,7 +191,7 @@ def _spreads(trained: Refit[_H]) -> dict[Group, float]:
     variances = np.einsum("ij,jk,ik->i", rows, trained.covariance, rows)
     found: dict[Group, float] = {}
     for feature, variance in zip(everything.features(trained.z), variances.tolist(), strict=True):
-        if feature.group in trained.hypothesis.left_out and feature.kind in WEIGHT:
+        if feature.group in trained.hypothesis.left_out and _tells(feature):
             part = 100 * WEIGHT[feature.kind] * feature.sd / _scale(feature)
             found[feature.group] = float(np.hypot(found.get(feature.group, 0.0), part * np.sqrt(variance)))
     return found
@@ -198,9 +201,14 @@ def left_out_errors(hypothesis: AnyHypothesis, z: np.ndarray) -> dict[Group, tup
     """Errors of what a hypothesis leaves out in percent, and their noise."""
     found: dict[Group, list[Feature]] = {}
     for feature in hypothesis.features(z, left_out=True):
-        if feature.kind in WEIGHT and not feature.lost and feature.sd < 0.5 * _scale(feature):
+        if _tells(feature):
             found.setdefault(feature.group, []).append(feature)
     return {group: (_error(features), _noise(features)) for group, features in found.items()}
+
+
+def _tells(feature: Feature) -> bool:
+    """Whether a prediction of it can be wrong: not so where anything is possible."""
+    return feature.kind in WEIGHT and not feature.lost and feature.sd < 0.5 * _scale(feature)
 
 
 def refit_held(hypothesis: _H, z: np.ndarray) -> Refit[_H]:
