@@ -128,8 +128,8 @@ def refitted(hypothesis: _H, z: np.ndarray, worth: float = np.inf) -> Refit[_H] 
 
 
 def widened(hypothesis: _H, z: np.ndarray) -> Refit[_H] | None:
-    """The optimum in wide valleys, seen by frequencies alone."""
-    return refitted(replace(hypothesis, held=None, discrepancy=COARSE), z)
+    """The optimum in wide valleys, seen by frequencies alone; without what is dear, which matters little there."""
+    return refitted(replace(hypothesis, held=None, discrepancy=COARSE, trained=False), z)
 
 
 def through_wide_valleys(hypothesis: _H, z: np.ndarray, rough: Refit[_H] | None = None) -> Refit[_H] | None:

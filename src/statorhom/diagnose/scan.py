@@ -56,6 +56,13 @@ class Scan:
     signatures: tuple[Signature, ...]
     p_value: float
 
+    def of_every_candidate(self) -> tuple[Signature, ...]:
+        """The best signature of every candidate, the best first."""
+        best: dict[str, Signature] = {}
+        for signature in self.signatures:
+            best.setdefault(signature.candidate.label, signature)
+        return tuple(best.values())
+
     def worth_refitting(
         self, most: int, least_gain: float, every_effect: bool = False
     ) -> tuple[Signature, ...]:

@@ -103,7 +103,11 @@ def _in_order(base: Refit, found: Scan) -> Iterator[tuple[float, list[_Start]]]:
     if _price(trials[0]) < DEAR:
         # the scan's favourite needs no rival to be tried
         yield trials.pop(0)
-    cheap = [trial for trial in trials if _price(trial) == CHEAP]
+    # gross errors are held down: what a cheap effect would gain is better tried than read from its signature
+    others = [
+        (s.gain, _starts_of(base, found, s)) for s in found.of_every_candidate() if s not in (first, *rest)
+    ]
+    cheap = [trial for trial in (*trials, *others) if _price(trial) == CHEAP]
     widest = [(gain, [_with_rough(start) for start in starts]) for gain, starts in cheap]
     yield from sorted(widest, key=lambda trial: min(_rough_objective(start) for start in trial[1]))
     yield from sorted((trial for trial in trials if _price(trial) > CHEAP), key=_price)
