@@ -10,7 +10,7 @@ import pytest
 import statorhom.diagnose.held_out as module
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.features import Feature
-from statorhom.diagnose.held_out import WEIGHED, held_out
+from statorhom.diagnose.held_out import WEIGHED, _Error, held_out
 
 MODES = tuple(("wound-free", (r, 0, 0)) for r in range(2, 8))
 KNOWN, SD = 7700.0, 90.0
@@ -28,9 +28,9 @@ def answered(
     """Held-out errors (before, after) of the modes and of the densities; the density that the explanation has."""
     base, moved = refit(8600.0), refit(after)
 
-    def errors(full: Any, fold: frozenset[Any]) -> dict[Any, tuple[float, float]]:
+    def errors(full: Any, fold: frozenset[Any]) -> dict[Any, _Error]:
         i = 0 if full is base else 1
-        return {g: (weighed[i], 0.6) if g == WEIGHED else (modes[i], 0.1) for g in fold}
+        return {g: _Error(weighed[i], 0.6, 0.0) if g == WEIGHED else _Error(modes[i], 0.1, 0.0) for g in fold}
 
     monkeypatch.setattr(module, "_errors", errors)
     return held_out(base, Explanation((), moved, 0.0))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Protocol, Self
 
@@ -61,6 +61,8 @@ class AnyHypothesis(ABC):
     held : test → partners of its modes; None to pair anew.
     missed : -2 ln of the chance that the tests did not find the predicted modes that have no partner.
     discrepancy : relative standard deviation added to all frequencies: makes the valleys wide enough to be found.
+    trained : whether bases hold the local fields that an effect asks for (`Action.training`), and machines of other
+        dimensions are solved. Both are dear, and what an effect promises can be told without them.
     """
 
     study: ModelledStudy
@@ -69,6 +71,7 @@ class AnyHypothesis(ABC):
     held: Mapping[str, Any] | None = None
     missed: float = 0.0
     discrepancy: float = 0.0
+    trained: bool = True
 
     @abstractmethod
     def paired(self, z: FloatArray) -> Self:
@@ -112,6 +115,8 @@ class AnyHypothesis(ABC):
             library()[c.effect].action(c, v, self.study.files)
             for c, v in zip(self.candidates, values, strict=True)
         )
+        if not self.trained:
+            own = (replace(action, training=None, proportional=True) for action in own)
         return (*own, *self.study.effects)
 
     def limits(self) -> tuple[FloatArray, FloatArray]:

@@ -25,9 +25,8 @@ from statorhom.model.free_modes import problem_at
 
 STEP = 0.004  # of ln(dimension), to each side, for the slopes
 FAR = 0.03  # of ln(dimension), to each side: changed machines that are solved, with a cubic through them
-NEAR = 0.008  # of ln(dimension): below, a slope is enough
 MOST = 6  # modes of a harmonic problem that are looked for
-JUMP = 0.05  # of ln f: farther from its slope a mode is another one
+JUMP = 0.01  # of ln f: farther from its slope a mode is another one
 
 
 def changed_geometry(study: StudyModel, dimensions: Mapping[str, float]) -> StatorGeometry:
@@ -58,14 +57,19 @@ def typed(study: StudyModel, key: str) -> float:
 
 
 def dimension_shift(
-    study: StudyModel, stage: StageModel, dimensions: Mapping[str, float], key: ModeKey
+    study: StudyModel,
+    stage: StageModel,
+    dimensions: Mapping[str, float],
+    key: ModeKey,
+    *,
+    proportional: bool = False,
 ) -> float:
-    """Change of ln f of a mode by true dimensions ("section.key" → value)."""
+    """Change of ln f of a mode by true dimensions ("section.key" → value), or its slope's part alone."""
     total = 0.0
     for name, value in dimensions.items():
         t = float(np.log(value / typed(study, name)))
         total += _slopes(study, stage, name).get(key, 0.0) * t
-        if abs(t) > NEAR:
+        if not proportional:
             square, cube = _bends(study, stage, name).get(key, (0.0, 0.0))
             total += square * t**2 + cube * t**3
     return total

@@ -19,7 +19,8 @@ from statorhom.model.convergence import ModeKey
 from statorhom.modes.pairing import pair
 from statorhom.study.modal_table import MeasuredMode
 
-OWN, OWN_PART = 5e-4, 0.05  # of frequencies: floor, and part of the mesh's correction
+# of frequencies: floor, part of the mesh's correction, and what its square adds where the mesh is too coarse for that
+OWN, OWN_PART, OWN_SQUARE = 5e-4, 0.05, 3.0
 SCATTER_SD = (
     1.2e-3  # of either part of a doublet's relative split: sheets, punching and welding vary that much
 )
@@ -179,7 +180,8 @@ def _lost(test: MeasuredTest, rows: Sequence[MeasuredMode]) -> list[Feature]:
 
 def own_sd(error: ModelError, key: ModeKey) -> float:
     """Relative model error of a mode that others do not share: what of the mesh's is not in their common pattern."""
-    return float(np.hypot(OWN, OWN_PART * (error.factor(key) - 1.0)))
+    correction = error.factor(key) - 1.0
+    return float(np.linalg.norm([OWN, OWN_PART * correction, OWN_SQUARE * correction**2]))
 
 
 def measured_sd(mode: MeasuredMode) -> float:

@@ -9,6 +9,7 @@ import numpy as np
 from typing_extensions import TypeVar
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
+from statorhom.diagnose.derivatives import jacobian
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.features import Feature
 from statorhom.diagnose.refit import Refit, refit
@@ -17,8 +18,9 @@ from statorhom.model.convergence import ModeKey
 
 _H = TypeVar("_H", bound=AnyHypothesis)
 
-FOLDS = 3
+FOLDS = 6
 LEAST_FALL = 0.25
+LEAST_NOISE = 1e-3  # percent
 ERRORS = 2.0  # standard errors that the fall must exceed
 WORSE = 1.5  # a group worsens when its error grows by this and beyond its noise
 # of features other than frequencies, in terms of a frequency: split of λ, shift of a pole, level, a density's error
@@ -44,7 +46,7 @@ class HeldOut:
     ----------
     groups : test and mode.
     before, after : of the declared model and of the explanation.
-    noise : what the measurement and the mesh leave uncertain.
+    noise : what the measurement, the mesh and the modes that were seen leave uncertain; errors weigh by it.
     what : one line for the report.
     """
 
@@ -52,7 +54,7 @@ class HeldOut:
     before: tuple[float, ...]
     after: tuple[float, ...]
     noise: tuple[float, ...]
-    what: str = "each mode predicted from fits that did not see it (three folds)"
+    what: str = "each mode predicted from fits that did not see it (six folds)"
 
     @property
     def informative(self) -> int:
@@ -61,11 +63,16 @@ class HeldOut:
 
     @property
     def before_rms(self) -> float:
-        return _rms(self.before)
+        return self._weighted(self.before)
 
     @property
     def after_rms(self) -> float:
-        return _rms(self.after)
+        return self._weighted(self.after)
+
+    def _weighted(self, errors: Sequence[float]) -> float:
+        """Root mean square; what the modes that were seen do not tell counts for little."""
+        e, n = np.array(errors), np.maximum(np.array(self.noise), LEAST_NOISE)
+        return float(np.sqrt(np.sum((e / n) ** 2) / np.sum(1 / n**2))) if len(e) else 0.0
 
     @property
     def falls(self) -> bool:
@@ -91,14 +98,16 @@ class HeldOut:
         """Whether a test's error grows beyond its noise."""
         for test in {g[0] for g in self.groups}:
             own = [i for i, g in enumerate(self.groups) if g[0] == test]
-            b, a, n = (_rms([v[i] for i in own]) for v in (self.before, self.after, self.noise))
-            if a > WORSE * max(b, n):
+            b, a = (
+                _rms([v[i] / max(self.noise[i], LEAST_NOISE) for i in own]) for v in (self.before, self.after)
+            )
+            if a > WORSE * max(b, 1.0):
                 return True
         return False
 
 
 def held_out(base: Refit, explanation: Explanation) -> HeldOut:
-    """Hold out every third mode in turn; where modes do not tell, the densities that an explanation moves.
+    """Hold out every sixth mode in turn; where modes do not tell, the densities that an explanation moves.
 
     A density is what no recording saw: that the recordings alone ask for a plausible one is a test of its own.
     """
@@ -113,20 +122,18 @@ def held_out(base: Refit, explanation: Explanation) -> HeldOut:
 
 def _predicted(base: Refit, explanation: Explanation, folds: Sequence[frozenset[Group]]) -> HeldOut:
     groups = {g for fold in folds for g in fold}
-    rows: dict[Group, tuple[float, float, float]] = {}
+    rows: dict[Group, tuple[_Error, _Error]] = {}
     for fold in folds:
         if not fold or (len(fold) == len(groups) and fold != {WEIGHED}):
             continue
-        errors = [_errors(r, fold) for r in (base, explanation.refit)]
-        for group in fold:
-            if all(group in e for e in errors):
-                rows[group] = (errors[0][group][0], errors[1][group][0], errors[0][group][1])
+        before, after = (_errors(r, fold) for r in (base, explanation.refit))
+        rows |= {group: (before[group], after[group]) for group in fold if group in before and group in after}
     used = sorted(rows, key=str)
     return HeldOut(
         tuple(used),
-        tuple(rows[g][0] for g in used),
-        tuple(rows[g][1] for g in used),
-        tuple(rows[g][2] for g in used),
+        tuple(rows[g][0].error for g in used),
+        tuple(rows[g][1].error for g in used),
+        tuple(float(np.hypot(rows[g][0].noise, max(e.spread for e in rows[g]))) for g in used),
     )
 
 
@@ -153,14 +160,38 @@ def groups_of(base: Refit) -> list[Group]:
     return sorted({f.group for f in features if f.kind in WEIGHT and not f.lost} - {WEIGHED}, key=str)
 
 
-def _errors(full: Refit, fold: frozenset[Group]) -> dict[Group, tuple[float, float]]:
-    """Errors of a fold in percent, and their noise, after a fit without it."""
+@dataclass(frozen=True)
+class _Error:
+    """Of one group in percent: the error, its noise, and what the other groups leave open of the prediction."""
+
+    error: float
+    noise: float
+    spread: float
+
+
+def _errors(full: Refit, fold: frozenset[Group]) -> dict[Group, _Error]:
+    """Errors of a fold after a fit without it."""
     hypothesis: AnyHypothesis = replace(full.hypothesis, left_out=fold)
     try:
         trained = refit_held(hypothesis, full.z)
+        known = left_out_errors(trained.hypothesis, trained.z)
+        spreads = _spreads(trained)
     except StatorhomError:
         return {}
-    return left_out_errors(trained.hypothesis, trained.z)
+    return {group: _Error(*pair, spreads.get(group, 0.0)) for group, pair in known.items()}
+
+
+def _spreads(trained: Refit[AnyHypothesis]) -> dict[Group, float]:
+    """Standard deviations of the predictions of what a fit left out, in percent."""
+    everything = replace(trained.hypothesis, left_out=frozenset())
+    rows = jacobian(everything, trained.z)
+    variances = np.einsum("ij,jk,ik->i", rows, trained.covariance, rows)
+    found: dict[Group, float] = {}
+    for feature, variance in zip(everything.features(trained.z), variances.tolist(), strict=True):
+        if feature.group in trained.hypothesis.left_out and feature.kind in WEIGHT:
+            part = 100 * WEIGHT[feature.kind] * feature.sd / _scale(feature)
+            found[feature.group] = float(np.hypot(found.get(feature.group, 0.0), part * np.sqrt(variance)))
+    return found
 
 
 def left_out_errors(hypothesis: AnyHypothesis, z: np.ndarray) -> dict[Group, tuple[float, float]]:

@@ -74,7 +74,8 @@ class Hypothesis(AnyHypothesis):
     def mark(self, z: FloatArray) -> tuple[tuple[str, tuple[float, ...]], ...]:
         """What the actions depend on."""
         values = self.effect_values(z)
-        own = ((c.label, tuple(v.values())) for c, v in zip(self.candidates, values, strict=True))
+        kind = "" if self.trained else " untrained"
+        own = ((c.label + kind, tuple(v.values())) for c, v in zip(self.candidates, values, strict=True))
         return (*own, *((f"declared {i}", ()) for i in range(len(self.study.effects))))
 
     def paired(self, z: FloatArray) -> Hypothesis:

@@ -131,7 +131,11 @@ def predicted(
     for key, one in base.items():
         shared = stage.error.shared(key)
         total = one.log_f + np.log(stage.error.factor(key)) + mesh * shared
-        total += sum(dimension_shift(study, stage, a.dimensions, key) for a in here if a.dimensions)
+        total += sum(
+            dimension_shift(study, stage, a.dimensions, key, proportional=a.proportional)
+            for a in here
+            if a.dimensions
+        )
         response = shifts.get(key, Response(0.0, 0j))
         found[key] = PredictedMode(
             key, one.mode, float(total + response.shift), one.split + response.split, shared, one.slope

@@ -181,7 +181,8 @@ def _choices(study: ModelledStudy, parameter: EffectParameter) -> list[float]:
 def _change(base: Refit, candidate: Candidate, start: FloatArray) -> FloatArray | None:
     """Residuals with the effect minus those without, pairing held; None where no body has the effect."""
     hypothesis = base.hypothesis
-    acted = replace(hypothesis, candidates=(candidate,))
+    # a signature's direction needs no local fields
+    acted = replace(hypothesis, candidates=(candidate,), trained=False)
     try:
         with_effect = acted.features(np.r_[base.z, start])
     except (StatorhomError, KeyError):

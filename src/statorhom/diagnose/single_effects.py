@@ -153,13 +153,24 @@ def _best_refit(starts: Sequence[_Start], worth: float, *, far: bool) -> Refit |
     found: list[Refit] = []
     for start in starts:
         if np.isfinite(worth):
-            found += _kept(refitted(start.hypothesis, start.z, worth))
+            found += _kept(_rival(start, worth))
             continue
         for wide in (True, False) if far else (False, True):
             found += _kept(_through(start) if wide else refitted(start.hypothesis, start.z))
             if found and not is_poor(found[-1]):
                 break
     return min(found, key=lambda r: r.objective, default=None)
+
+
+def _rival(start: _Start, worth: float) -> Refit | None:
+    """The nearest optimum; one that is no rival is not sought with local fields, which are dear."""
+    hypothesis = start.hypothesis
+    if any(action.training or action.dimensions for action in hypothesis.actions(start.z)):
+        quick = refitted(replace(hypothesis, trained=False), start.z, worth)
+        if quick is None or quick.objective > worth:
+            return quick
+        start = replace(start, z=quick.z)
+    return refitted(hypothesis, start.z, worth)
 
 
 def _through(start: _Start) -> Refit | None:

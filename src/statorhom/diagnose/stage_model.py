@@ -183,7 +183,7 @@ def mesh_error(setup: StageSetup, ring: RingBasis, materials: Materials, density
     """Mesh factors from two meshes at given materials."""
     assert isinstance(setup.step, StepGeometry)
     finer = assemble(mesh_step(setup.step, density.refined(FINER)))
-    orders = sorted({m.order for t in setup.tests for m in t.modes if m.order} or {2, 3, 4})
+    orders = sorted({m.order for t in setup.tests for m in t.modes if m.order is not None} or {2, 3, 4})
     fine = problem_at(finer, materials).solve(ring.highest_hz, orders, MOST)
     coarse = FreeModes(ring.solve(materials).modes, (), (), ())
     found = converge([1.0, 1 / FINER], [ring.model.mesh.full_dof, finer.mesh.full_dof], [coarse, fine])

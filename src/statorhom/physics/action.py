@@ -110,6 +110,7 @@ class Action:
     ----------
     masses : stage → what the scale would have to say (kg).
     dimensions : "section.key" of the geometry file → true value in the key's unit.
+    proportional : whether dimensions act by the slopes of the frequencies alone.
     materials : from the declared materials of a stage to the true ones.
     changes : from mesh and materials to what breaks the symmetry or varies along the axis.
     training : what a basis has to hold for these changes beside modes.
@@ -127,6 +128,7 @@ class Action:
 
     masses: Mapping[str, float] = field(default_factory=dict)
     dimensions: Mapping[str, float] = field(default_factory=dict)
+    proportional: bool = False
     materials: MaterialRule | None = None
     changes: ChangeRule | None = None
     training: Training | None = None

@@ -19,7 +19,6 @@ DIMENSIONS = {
     "frame": ("outer_diameter_mm", "length_mm"),
 }
 FIRST_STEP = {"winding": ("wound", "impregnated"), "frame": ("framed",)}
-START = 0.005  # of a number: where its effect is still proportional to it
 SPREAD = 1.3  # a wrong number is off by up to this factor nine times out of ten
 
 
@@ -92,7 +91,7 @@ def _candidate(stage: str, key: str, typed: float, choice: tuple[tuple[str, str 
         typed / 3,
         typed * 3,
         "log",
-        ((1 - START) * typed, (1 + START) * typed),
+        (0.98 * typed, 1.02 * typed),
         typed,
     )
     return Candidate("wrong_input", stage, (value,), choice=choice)
