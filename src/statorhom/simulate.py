@@ -21,6 +21,7 @@ from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.priors import Carried, stage_space
 from statorhom.identify.refinement import Band, MeshSeries
 from statorhom.identify.settings import Settings
+from statorhom.identify.stage_checks import check_materials
 from statorhom.identify.stage_materials import StageMaterials
 from statorhom.identify.stage_problem import CorrectedMode, corrected
 from statorhom.identify.stage_run import PREDICTED_MESHES, PREDICTED_MODES
@@ -82,6 +83,7 @@ def simulate_study(path: Path, stage: str | None, out: Path | None) -> tuple[Pat
         for setup in setups:
             if setup.step is None or not setup.tests:
                 continue
+            check_materials(files, setup)
             materials, known = _materials(setup, known, identified.get(setup.keys.name, {}))
             if stage in (None, setup.keys.name):
                 rows += _simulate(files, setup, materials, folder)

@@ -7,10 +7,12 @@ from wound_box import draws, winding
 
 from statorhom.errors import SolverError
 from statorhom.materials.isotropic import Isotropic
+from statorhom.materials.orthotropic import Orthotropic
 from statorhom.model.affine import Material
 from statorhom.model.material_span import material_point, material_span
 
 REGIONS = ("lamination", "winding", "overhang")
+FOAM = Isotropic(60e6, 0.3)
 
 
 def test_as_many_directions_as_the_symmetry_has():
@@ -70,3 +72,21 @@ def test_other_symmetries_are_refused():
     other = Material(ORTHOTROPIC.hooke(), 7800.0)
     with pytest.raises(SolverError, match="'winding'"):
         span.weights(material_point({**MATERIALS, "winding": other}, REGIONS))
+
+
+def test_what_never_changes_folds_into_one_direction():
+    rng = np.random.default_rng(0)
+    cloths = [
+        Orthotropic(e, e, 9e9, 0.04, 0.3, 0.3, g, 3e9, 3e9)
+        for e, g in zip(rng.uniform(25e9, 85e9, 9), rng.uniform(1e9, 10e9, 9), strict=True)
+    ]
+    made = [{"cloth": Material(c.hooke(), 1500.0), "foam": Material(FOAM.hooke(), 80.0)} for c in cloths]
+    points = [material_point(m, ("cloth", "foam")) for m in made]
+    span = material_span(points, ("cloth", "foam"), folded=True)
+    assert {r: len(e) for r, e in span.entries.items()} == {"cloth": 6, "foam": 1}
+    assert material_span(points, ("cloth", "foam")).size == 9 + 2
+    weights = span.weights(points[4])
+    np.testing.assert_allclose(span.directions["cloth"] @ weights[:6], points[4].hooke[0], rtol=1e-9)
+    np.testing.assert_allclose(span.directions["foam"] @ weights[6:], points[4].hooke[1], rtol=1e-9)
+    with pytest.raises(SolverError, match="'foam'"):
+        span.weights(material_point({**made[0], "foam": made[0]["cloth"]}, ("cloth", "foam")))

@@ -13,7 +13,7 @@ from threadpoolctl import threadpool_limits
 from statorhom.errors import StatorhomError
 from statorhom.identify.chain import Chain, chain
 from statorhom.identify.settings import Settings
-from statorhom.modes.measured_shape import MeasuredShape
+from statorhom.modes.point_shape import TestShapes
 from statorhom.results.schema import Results
 from statorhom.study.study import StudyFiles
 
@@ -37,7 +37,7 @@ class Machine:
     folder: Path
     bases: Path
     settings: Settings
-    measured: Mapping[str, tuple[MeasuredShape, ...]] = field(default_factory=dict)
+    measured: Mapping[str, TestShapes] = field(default_factory=dict)
 
     @property
     def name(self) -> str:

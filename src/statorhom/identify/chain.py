@@ -18,6 +18,7 @@ from statorhom.identify.measured_mac import with_mac
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.priors import Carried
 from statorhom.identify.settings import Settings
+from statorhom.identify.stage_checks import check_design, check_materials
 from statorhom.identify.stage_remarks import recording_remarks
 from statorhom.identify.stage_result import mass_only, stage_result
 from statorhom.identify.stage_run import run_stage
@@ -26,7 +27,7 @@ from statorhom.identify.stage_shapes import free_shapes
 from statorhom.identify.supported_results import supported_results
 from statorhom.materials.density import RegionDensity
 from statorhom.model.basis_store import BasisStore
-from statorhom.modes.measured_shape import MeasuredShape
+from statorhom.modes.point_shape import TestShapes
 from statorhom.results.files import check_folder, earlier_stages, write_results
 from statorhom.results.schema import RegionResult, Results, StageResult
 from statorhom.results.shape_file import write_shape_file
@@ -71,7 +72,7 @@ class Chain:
     folder: Path
     settings: Settings
     bases: Path
-    measured: Mapping[str, tuple[MeasuredShape, ...]] = field(default_factory=dict)
+    measured: Mapping[str, TestShapes] = field(default_factory=dict)
 
     def check(self) -> None:
         """Refuse, before any work, what no step can be identified from.
@@ -126,6 +127,8 @@ class Chain:
         setups = [stage_setup(self.files, self.geometry, i) for i in range(last + 1)]
         for setup in setups:
             check_fit(self.files, setup)
+            check_materials(self.files, setup)
+            check_design(self.files, setup)
             effect_shifts(self.files, setup)
         return setups
 
@@ -215,7 +218,7 @@ def chain(
     folder: Path,
     settings: Settings,
     bases: Path | None = None,
-    measured: Mapping[str, tuple[MeasuredShape, ...]] | None = None,
+    measured: Mapping[str, TestShapes] | None = None,
 ) -> Chain:
     """A chain of a study's steps.
 

@@ -10,11 +10,21 @@ import numpy as np
 from statorhom.identify.announce import Announce
 from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.parameters import ParameterSpace
-from statorhom.identify.stage_basis import LOCAL, SEARCH, SHARED, SHARED_STEP, STEP, BasisPlan, reduce_stage
+from statorhom.identify.stage_basis import (
+    LOCAL,
+    SEARCH,
+    SEARCH_OF_BLOCKS,
+    SHARED,
+    SHARED_STEP,
+    STEP,
+    BasisPlan,
+    reduce_stage,
+)
 from statorhom.identify.stage_materials import StageMaterials
 from statorhom.identify.stage_problem import StageProblem
 from statorhom.identify.training import neighbouring_materials, training_materials
 from statorhom.mesh.hex_mesh import PartMesh
+from statorhom.mesh.mirror_mesh import MirrorMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.basis_store import BasisStore
 from statorhom.model.reduced_stator import ReducedStator
@@ -48,7 +58,8 @@ class FitBases:
         self, space: ParameterSpace, materials: StageMaterials, typical: Materials
     ) -> ReducedStator:
         """Reduced model for all that a prior allows, fastest at the densities of `typical`."""
-        plan = SHARED if self.shared else SEARCH
+        alone = SEARCH_OF_BLOCKS if isinstance(self.model.mesh, MirrorMesh) else SEARCH
+        plan = SHARED if self.shared else alone
         training = training_materials(space, materials, plan.training)
         return self._reduce("reduced bases", training, typical, plan)
 

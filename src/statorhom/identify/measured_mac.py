@@ -6,16 +6,22 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from scipy.interpolate import CubicSpline
+from scipy.spatial import KDTree
 
 from statorhom.mesh.mirror_mesh import MirrorMesh
-from statorhom.modes.mac import subspace_mac
+from statorhom.modes.mac import mac, subspace_mac
 from statorhom.modes.measured_shape import MeasuredShape
+from statorhom.modes.point_shape import PointShape, TestShapes
+from statorhom.results.full_surface import full_surface
 from statorhom.results.schema import ModeResult
 from statorhom.results.shape_file import ModeShape, ShapeFile
 
+OFF = 0.05  # of a body's largest size: sensors farther from its surface are in another frame
+FEWEST = 6  # sensors: the shapes of fewer look alike
+
 
 def with_mac(
-    modes: Sequence[ModeResult], simulated: ShapeFile, measured: Mapping[str, tuple[MeasuredShape, ...]]
+    modes: Sequence[ModeResult], simulated: ShapeFile, measured: Mapping[str, TestShapes]
 ) -> tuple[ModeResult, ...]:
     """Results with their MAC where both shapes are known.
 
@@ -31,9 +37,27 @@ def with_mac(
         if mode.shape is None or mode.label is None or not shapes:
             found.append(mode)
             continue
-        pair = simulated.modes[mode.shape], shapes[int(mode.label) - 1]
-        found.append(mode.model_copy(update={"mac": _mac(simulated, *pair)}))
+        shape = shapes[int(mode.label) - 1]
+        simulated_mode = simulated.modes[mode.shape]
+        if isinstance(shape, PointShape):
+            value = _mac_of_points(simulated, simulated_mode, shape)
+        else:
+            value = _mac(simulated, simulated_mode, shape)
+        found.append(mode.model_copy(update={"mac": value}))
     return tuple(found)
+
+
+def _mac_of_points(simulated: ShapeFile, mode: ModeShape, shape: PointShape) -> float | None:
+    """MAC at the sensors of a plate, a beam or a wing; None where they are too few or not on it."""
+    if not isinstance(simulated.mesh, MirrorMesh) or len(np.unique(shape.positions_m, axis=0)) < FEWEST:
+        return None
+    surface = full_surface(simulated.mesh)
+    distance, nearest = KDTree(surface.nodes).query(shape.positions_m)
+    if distance.max() > OFF * np.ptp(surface.nodes, axis=0).max():
+        return None
+    moved = simulated.displacement(surface, mode)[nearest]
+    along = np.sum(moved * shape.directions, axis=1)
+    return mac(along, shape.values) if np.any(along) else None
 
 
 def _mac(simulated: ShapeFile, mode: ModeShape, shape: MeasuredShape) -> float | None:

@@ -21,6 +21,7 @@ from statorhom.extraction.measured_modes import MeasuredModes, measured_modes
 from statorhom.extraction.modal_table_text import modal_table, table_text
 from statorhom.identify.announce import Announce, silent
 from statorhom.modes.measured_shape import MeasuredShape
+from statorhom.modes.point_shape import PointShape, TestShapes
 from statorhom.recordings.placement import Placement
 from statorhom.study.atomic import write_bytes, write_text
 from statorhom.study.frozen_map import FrozenMap
@@ -29,11 +30,9 @@ from statorhom.study.modal_table import ModalTable, read_modal_table
 from statorhom.study.modal_tests import ModalTestKeys
 from statorhom.study.study import StudyFiles
 
-FORMAT = 2  # of what is kept: a change of method makes it stale
+FORMAT = 3  # of what is kept: a change of method makes it stale
 FOLDER = "recordings"
 _DAMAGED = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, InputFileError)
-
-Shapes = tuple[MeasuredShape, ...]
 
 
 @dataclass(frozen=True)
@@ -45,11 +44,12 @@ class RecordedStudy:
     files : StudyFiles
         With the tables of all tests of the stages that were asked for.
     shapes : mapping
-        Test → measured shapes by row of its table; empty where points lie around no axis.
+        Test → measured shapes by row of its table: around an axis, or at the points of a plate or a wing; empty
+        where points and directions are not known.
     """
 
     files: StudyFiles
-    shapes: Mapping[str, Shapes] = field(default_factory=dict)
+    shapes: Mapping[str, TestShapes] = field(default_factory=dict)
 
 
 def with_recorded_tables(
@@ -91,7 +91,7 @@ def _without_tables(files: StudyFiles, last: int | None) -> list[ModalTestKeys]:
     return [test for stage in stages for test in stage.tests if test.name not in files.tables]
 
 
-def _recorded(files: StudyFiles, test: ModalTestKeys, folder: Path) -> tuple[ModalTable, Shapes]:
+def _recorded(files: StudyFiles, test: ModalTestKeys, folder: Path) -> tuple[ModalTable, TestShapes]:
     paths = [files.path.parent / name for name in test.paths]
     table, shapes = folder / f"{test.name}.csv", folder / f"{test.name}.npz"
     digest = _digest(test, paths)
@@ -111,7 +111,7 @@ def _recorded(files: StudyFiles, test: ModalTestKeys, folder: Path) -> tuple[Mod
     return _kept(table, shapes, digest)
 
 
-def _kept(table: Path, shapes: Path, digest: str) -> tuple[ModalTable, Shapes]:
+def _kept(table: Path, shapes: Path, digest: str) -> tuple[ModalTable, TestShapes]:
     known, remarks = _read_shapes(shapes, digest)
     return replace(read_modal_table(table), remarks=remarks), known
 
@@ -135,16 +135,32 @@ def _shape_bytes(measured: MeasuredModes, digest: str) -> bytes:
         content |= {"radius": np.array(first.radius_m), "z": first.z_m, "angles": first.angles_rad}
         content["motion"] = np.stack([shape.motion for shape in shapes])
         content["sd"] = np.stack([shape.sd for shape in shapes])
+    elif not shapes:
+        content |= _at_points(measured)
     buffer = io.BytesIO()
     np.savez(buffer, **content)  # type: ignore[arg-type]
     return buffer.getvalue()
 
 
-def _read_shapes(path: Path, digest: str) -> tuple[Shapes, tuple[str, ...]]:
+def _at_points(measured: MeasuredModes) -> dict[str, np.ndarray]:
+    """Positions, directions and values where every sensor has a place."""
+    points = measured.extraction.points
+    placed = [(p.position, p.direction) for p in points if p.position is not None and p.direction is not None]
+    if len(placed) < len(points):
+        return {}
+    positions, directions = (np.array(column, dtype=float) for column in zip(*placed, strict=True))
+    values = np.stack([one.mode.shape for one in measured.modes])
+    return {"positions": positions, "directions": directions, "values": values}
+
+
+def _read_shapes(path: Path, digest: str) -> tuple[TestShapes, tuple[str, ...]]:
     with np.load(path, allow_pickle=False) as content:
         if str(content["digest"]) != digest:
             raise ValueError("of other recordings")
         remarks = tuple(str(remark) for remark in content["remarks"])
+        if "values" in content:
+            at = content["positions"], content["directions"]
+            return tuple(PointShape(*at, values) for values in content["values"]), remarks
         if "motion" not in content:
             return (), remarks
         place = float(content["radius"]), content["z"], content["angles"]

@@ -36,16 +36,20 @@ class BasisPlan:
     training : materials among which they pick their snapshots, a power of two; of a local basis around each optimum.
     cells : into which the materials are divided at most; more make an evaluation faster and the bases dearer.
     tolerance : certified relative frequency error to stay below.
+    folded : see `material_span`.
     """
 
     training: int
     cells: int
     tolerance: float
+    folded: bool = False
 
 
 # at the result: a bound, mostly far above the error; and the mesh factors compare the basis with the full model there
 TOLERANCE = 1e-3
 SEARCH = BasisPlan(64, 4, 1e-2)
+# plates and wings have few problems and large ones: what counts are full solves, and a single cell needs the fewest
+SEARCH_OF_BLOCKS = BasisPlan(64, 1, 1e-2, folded=True)
 LOCAL = BasisPlan(16, 4, TOLERANCE)
 SHARED = BasisPlan(512, 12, 3e-4)
 
@@ -79,7 +83,7 @@ def reduce_stage(
     store : where bases are kept between runs; None to build them anew.
     step : the band is rounded up to a power of it.
     """
-    box = material_box(training, model.mesh.regions, most=plan.cells)
+    box = material_box(training, model.mesh.regions, most=plan.cells, folded=plan.folded)
     band = rounded_up(BAND * highest_hz, step)
     # another process may want the same bases at the same time: in different orders, each finds what the other has built
     order = np.random.default_rng().permutation(len(spaces))

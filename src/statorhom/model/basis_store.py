@@ -42,8 +42,11 @@ def basis_key(mesh: PartMesh, harmonic: Space, box: MaterialBox, highest_hz: flo
     parts = {field.name: getattr(mesh, field.name) for field in fields(mesh)}
     of_mesh = {name: part for name, part in parts.items() if not isinstance(part, np.ndarray)}
     words = (FORMAT, mesh.axes, sorted(of_mesh.items()), harmonic.order, harmonic.parity, harmonic.axial)
+    entries = {region: found.tolist() for region, found in box.span.entries.items()}
     digest.update(
-        repr((*words, box.span.regions, box.span.groups, float(highest_hz), float(tolerance))).encode()
+        repr(
+            (*words, box.span.regions, box.span.groups, entries, float(highest_hz), float(tolerance))
+        ).encode()
     )
     arrays = [part for _, part in sorted(parts.items()) if isinstance(part, np.ndarray)]
     for cell in box.training:

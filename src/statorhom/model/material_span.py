@@ -100,11 +100,20 @@ class MaterialSpan:
         return found
 
 
-def material_span(points: Sequence[MaterialPoint], regions: Sequence[str]) -> MaterialSpan:
-    """The narrowest symmetry of every region that holds all its materials."""
+def material_span(
+    points: Sequence[MaterialPoint], regions: Sequence[str], *, folded: bool = False
+) -> MaterialSpan:
+    """The narrowest symmetry of every region that holds all its materials.
+
+    Parameters
+    ----------
+    points, regions : materials and the order of their numbers.
+    folded : a material that is the same at all points is one direction, and woven cloth six instead of nine. Materials
+        outside, and derivatives with respect to constants that never moved alone, are then out of reach.
+    """
     hooke = {region: np.array([p.hooke[i] for p in points]) for i, region in enumerate(regions)}
     groups = _groups(hooke)
-    chosen = {first: _narrowest(hooke[first]) for first in groups}
+    chosen = {first: _narrowest(hooke[first], folded) for first in groups}
     return MaterialSpan(
         tuple(regions), groups, {r: c[0] for r, c in chosen.items()}, {r: c[1] for r, c in chosen.items()}
     )
@@ -119,11 +128,13 @@ def _groups(hooke: Mapping[str, np.ndarray]) -> dict[str, tuple[str, ...]]:
     return found
 
 
-def _narrowest(hooke: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _narrowest(hooke: np.ndarray, folded: bool) -> tuple[np.ndarray, np.ndarray]:
     size = np.abs(hooke).max(axis=1, keepdims=True)
+    if folded and np.array_equal(hooke, np.broadcast_to(hooke[0], hooke.shape)):
+        return np.array([0]), hooke[0][:, None] / hooke[0, 0]
     return next(
         (entries, directions)
-        for entries, directions in SYMMETRIES
+        for entries, directions in (FOLDED if folded else SYMMETRIES)
         if np.all(np.abs(hooke[:, entries] @ directions.T - hooke) <= OUTSIDE * size)
     )
 
@@ -153,3 +164,6 @@ SYMMETRIES = (
     ),
     _symmetry(*({f"{i + 1}{j + 1}": 1.0} for i, j in HOOKE_ENTRIES)),
 )
+# woven cloth, stiff alike along 1 and 2, lies between the last two
+WOVEN = _symmetry({"11": 1, "22": 1}, {"33": 1}, {"12": 1}, {"13": 1, "23": 1}, {"44": 1, "55": 1}, {"66": 1})
+FOLDED = (*SYMMETRIES[:-1], WOVEN, SYMMETRIES[-1])

@@ -47,9 +47,14 @@ class MaterialBox:
 
 
 def material_box(
-    training: Sequence[Materials], regions: Sequence[str], radius: float = RADIUS, most: int = MOST_CELLS
+    training: Sequence[Materials],
+    regions: Sequence[str],
+    radius: float = RADIUS,
+    most: int = MOST_CELLS,
+    *,
+    folded: bool = False,
 ) -> MaterialBox:
-    """Divide materials that cover a box; the first is its centre."""
+    """Divide materials that cover a box; the first is its centre; for `folded` see `material_span`."""
     points = [material_point(materials, regions) for materials in training]
     cells, centres = material_cells(points, radius, most)
     distance = np.array([cells.distances(point) for point in points])
@@ -59,7 +64,7 @@ def material_box(
         order = np.argsort(distance[:, cell], kind="stable")
         chosen = [i for rank, i in enumerate(order) if i != centre and (near[i, cell] or rank < LEAST)]
         parts.append(tuple(points[i] for i in (centre, *chosen)))
-    return MaterialBox(material_span(points, regions), cells, tuple(parts))
+    return MaterialBox(material_span(points, regions, folded=folded), cells, tuple(parts))
 
 
 @dataclass(frozen=True)

@@ -39,6 +39,7 @@ def check_identify(where: str, keys: IdentifyKeys, symmetries: Mapping[str, Symm
     for region, ranges in keys.prior.items():
         for constant, expected in ranges.items():
             _check_sign(f"{where}.identify.prior.{region}.{constant}.low", constant, expected.low)
+    _check_poisson(where, keys, symmetries)
     _check_contradictions(where, keys)
 
 
@@ -71,6 +72,17 @@ def _check_sign(where: str, constant: str, value: float) -> None:
         raise ValueError(f"{where}: a modulus must be greater than 0, but is {value:g}; correct the number")
     if not is_modulus(constant) and abs(value) > 1.0:
         raise ValueError(f"{where}: {value:g} is no Poisson ratio; type a number between -1 and 1")
+
+
+def _check_poisson(where: str, keys: IdentifyKeys, symmetries: Mapping[str, Symmetry]) -> None:
+    """An isotropic material's ratio has limits of its own; those of the others depend on their moduli."""
+    for region, values in keys.fixed.items():
+        nu = values.get("nu", 0.0)
+        if symmetries[region] == "isotropic" and not -1.0 < nu < 0.5:
+            raise ValueError(
+                f"{where}.identify.fixed.{region}.nu: {nu:g} is no Poisson ratio of an isotropic material; "
+                "type a number above -1 and below 0.5"
+            )
 
 
 def _check_contradictions(where: str, keys: IdentifyKeys) -> None:

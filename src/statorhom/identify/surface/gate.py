@@ -88,7 +88,7 @@ def gated_surfaces(
         If the smallest design is too large already, or has fewer points than the surface has coefficients.
     """
     dimension = experiments.cube.dimension
-    _check_smallest(_points(design, dimension, 0, seed, most_points), least_points)
+    check_smallest(design, dimension, most_points, least_points, seed)
     count = max(LEAST_CHECKS, CHECKS_PER_COORDINATE * dimension)
     checks = latin_hypercube_of(dimension, count, seed + CHECK_SEED)
     known = experiments.at(checks)
@@ -115,8 +115,15 @@ def gated_surfaces(
     return found
 
 
-def _check_smallest(points: Array | None, least: int) -> None:
-    """Before anything is solved."""
+def check_smallest(design: Design, dimension: int, most: int, least: int, seed: int = 0) -> None:
+    """Refuse a design whose first points are fewer than the surface's coefficients.
+
+    Raises
+    ------
+    IdentificationError
+        With both numbers.
+    """
+    points = _points(design, dimension, 0, seed, most)
     if points is not None and len(points) < least:
         raise IdentificationError(
             f"response surface: a design of {len(points)} points cannot determine a surface of {least} coefficients; "

@@ -14,9 +14,9 @@ from statorhom.identify.model_error import ModelError
 from statorhom.identify.optima import distinct_optima
 from statorhom.identify.parameters import ParameterSpace
 from statorhom.identify.polish import polish
-from statorhom.identify.surface.design import DESIGNS, latin_hypercube
+from statorhom.identify.surface.design import DESIGNS, Design, latin_hypercube
 from statorhom.identify.surface.experiments import Experiments
-from statorhom.identify.surface.gate import Gated, gated_surfaces
+from statorhom.identify.surface.gate import Gated, check_smallest, gated_surfaces
 from statorhom.identify.surface.gaussian_process import fit_gaussian_process
 from statorhom.identify.surface.mode_surfaces import FitSurface, ModeSurfaces
 from statorhom.identify.surface.nsga2 import ParetoFront, pareto_front
@@ -104,7 +104,7 @@ def search_surface(
         raise IdentificationError("response surface: all constants are fixed; there is nothing to search")
     gate = gated_surfaces(
         experiments,
-        partial(latin_hypercube, first=keys.points) if keys.points else DESIGNS[keys.design],
+        _design(keys),
         _fit(keys, seed),
         lambda surfaces, points: _wanted(_problem(surfaces, experiments, measured, error), points),
         limit=keys.largest_error_percent / 100.0,
@@ -132,6 +132,21 @@ def search_surface(
     best = int(np.argmin([min(np.sum(front.objectives**2, axis=1)) for front in fronts]))
     spent = sum(front.evaluations for front in fronts)
     return SurfaceSearch(problem, gate, fronts[best], pairings[best], hopeful, experiments.solves, spent)
+
+
+def check_points(keys: SurfaceKeys, dimension: int) -> None:
+    """Refuse a smallest design with fewer points than the surface has coefficients.
+
+    Raises
+    ------
+    IdentificationError
+        With both numbers.
+    """
+    check_smallest(_design(keys), dimension, keys.most_points, _least_points(keys, dimension))
+
+
+def _design(keys: SurfaceKeys) -> Design:
+    return partial(latin_hypercube, first=keys.points) if keys.points else DESIGNS[keys.design]
 
 
 def _fit(keys: SurfaceKeys, seed: int) -> FitSurface:

@@ -1,4 +1,4 @@
-"""A mode shape or the mesh of a plate or beam, drawn in space."""
+"""A mode shape or the mesh of a plate, a beam or a wing, drawn in space."""
 
 from __future__ import annotations
 
@@ -6,7 +6,10 @@ from dataclasses import dataclass
 
 import matplotlib as mpl
 import numpy as np
+import scipy.sparse as sp
+from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgb
+from scipy.sparse.csgraph import connected_components
 
 from statorhom.report.figures.canvas import DIVERGING, INK, new_figure, png
 from statorhom.report.figures.surface_drawing import View, draw_cells, draw_smooth, fit_view
@@ -18,19 +21,21 @@ _MESH_WIDTH_MM, _MESH_HEIGHT_MM = 170.0, 84.0
 _AMPLITUDE = 0.08  # largest drawn displacement over the longest side
 _COLOUR = "#8fb3cf"
 _VIEW = View(-58.0, 34.0)
+_SHARP = 0.7  # cosine between the normals of faces: below, their edge is one of the body
 
 
 @dataclass(frozen=True)
 class DrawnBlock:
-    """What all pictures of a block share: its surface and its longest side (m)."""
+    """What all pictures of a block share: its surface, its longest side (m) and its sharp edges (e, 2 nodes)."""
 
     surface: FullSurface
     longest: float
+    edges: np.ndarray
 
     @classmethod
     def of(cls, surface: FullSurface) -> DrawnBlock:
         """Measure a surface."""
-        return cls(surface, float(np.ptp(surface.nodes, axis=0).max()))
+        return cls(surface, float(np.ptp(surface.nodes, axis=0).max()), _sharp_edges(surface))
 
     def picture(self, displacement: np.ndarray) -> bytes:
         """PNG of one mode; `displacement` (f, 3) along x, y and z, any scale.
@@ -44,10 +49,9 @@ class DrawnBlock:
         rgb = mpl.colormaps[DIVERGING](0.5 + 0.43 * along / max(float(np.abs(along).max()), 1e-30))[:, :3]
         moved = self.surface.nodes + drawn
         draw_smooth(axes, _VIEW, moved, self.surface.quads, rgb)
-        corners = self._box()
-        for a, b in _EDGES:
-            axes.plot(*_VIEW.project(corners[[a, b]]).T, color=INK, linewidth=0.5, dashes=(4, 2), alpha=0.7)
-        fit_view(axes, _VIEW.project(np.vstack([moved, corners])))
+        ends = _VIEW.project(self.surface.nodes)[self.edges]
+        axes.add_collection(LineCollection(list(ends), colors=INK, linewidths=0.5, alpha=0.45, zorder=3))
+        fit_view(axes, _VIEW.project(np.vstack([moved, self.surface.nodes])))
         return png(figure, dpi=200)
 
     def mesh_picture(self) -> bytes:
@@ -59,13 +63,26 @@ class DrawnBlock:
         fit_view(axes, _VIEW.project(self.surface.nodes))
         return png(figure, dpi=200)
 
-    def _box(self) -> np.ndarray:
-        """(8, 3) corners of the box around the undeformed block."""
-        ends = np.array([self.surface.nodes.min(axis=0), self.surface.nodes.max(axis=0)])
-        return np.array(
-            [[ends[i][0], ends[j][1], ends[k][2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)]
-        )
+
+def _sharp_edges(surface: FullSurface) -> np.ndarray:
+    """Element edges between outer faces that meet at an angle, as pairs of nodes."""
+    quads = surface.quads[_outside(surface), :4]
+    corners = surface.nodes[quads]
+    normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    sides = np.sort(np.stack([quads, np.roll(quads, -1, axis=1)], axis=2), axis=2)
+    edges, number = np.unique(sides.reshape(-1, 2), axis=0, return_inverse=True)
+    order = np.argsort(number.ravel(), kind="stable")
+    face, sorted_edge = order // 4, number.ravel()[order]
+    twins = np.flatnonzero(sorted_edge[1:] == sorted_edge[:-1])
+    cosine = np.sum(normals[face[twins]] * normals[face[twins + 1]], axis=1)
+    return np.asarray(edges[sorted_edge[twins[cosine < _SHARP]]])
 
 
-# corners that differ in one coordinate
-_EDGES = [(a, b) for a in range(8) for b in range(a + 1, 8) if bin(a ^ b).count("1") == 1]
+def _outside(surface: FullSurface) -> np.ndarray:
+    """(q,) whether a face is of the outer skin, not of a hollow within."""
+    count = len(surface.nodes)
+    rows, columns = np.repeat(surface.quads[:, 0], 8), surface.quads.ravel()
+    links = sp.coo_array((np.ones(len(rows)), (rows, columns)), shape=(count, count))
+    _, part = connected_components(links, directed=False)
+    return np.asarray(part[surface.quads[:, 0]] == part[int(np.argmax(surface.nodes[:, 0]))])

@@ -21,7 +21,7 @@ _LEAD = (
 )
 _BLOCK_LEAD = (
     "How the body moves in each measured mode, as simulated and greatly exaggerated: red and blue parts move in "
-    "opposite directions, along the axis that moves most. Dashed: the edges of the undeformed body."
+    "opposite directions, along the axis that moves most. Thin lines: the edges of the undeformed body."
 )
 
 
