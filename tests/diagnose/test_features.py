@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose.derivatives import slopes_of
-from statorhom.diagnose.features import KNEE, LINEAR, LOST, free_features, held_down, shift_features
+from statorhom.diagnose.features import KNEE, LINEAR, LOST, free_features, held_down, own_sd, shift_features
 from statorhom.diagnose.measured import MeasuredSplit, MeasuredTest, PlaneShifts
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.identify.model_error import ModelError
@@ -53,3 +53,10 @@ def test_a_vanished_partner_leaves_as_many_features(rows: int, recorded: bool, r
     assert sum(f.residual == -held_down(LOST) for f in both[1]) == min(rows, len(both[1]))
     assert not any(f.lost for f in both[0]) and all(f.lost for f in both[1])
     assert not slopes_of(both[0], both[1], 1e-2).any()
+
+
+def test_a_coarse_mesh_leaves_more_of_a_frequency_open_than_its_correction_says() -> None:
+    key = (2, 0, 0)
+    fine, coarse = (own_sd(ModelError(factors={key: 1 - part}), key) for part in (0.004, 0.04))
+    assert fine == pytest.approx(5e-4, rel=0.2)
+    assert coarse > 8 * fine

@@ -14,14 +14,14 @@ from statorhom.diagnose.constants import study_constants
 from statorhom.diagnose.features import SCATTER_SD
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.recorded import measured_tests
-from statorhom.diagnose.stage_model import stage_model
+from statorhom.diagnose.stage_model import mesh_error, stage_model
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.geometry.stator import stator_geometry
 from statorhom.identify.stage_setup import stage_setup
 from statorhom.mesh import uniform
 
 STEP = 1e-3  # of internal coordinates
-DOUBLET = "frequency_hz,order,axial\n1428,2,0\n1434,2,0\n1766,2,1\n3770,3,0\n"
+DOUBLET = "frequency_hz,order,axial\n1428,2,0\n1434,2,0\n1766,2,1\n3770,3,0\n6200,0,1\n"
 CLAMPED = """
 [[stages.tests]]
 name = "stack-clamped"
@@ -74,3 +74,10 @@ def moved(hypothesis: Hypothesis, z: np.ndarray, change: np.ndarray) -> np.ndarr
     """Central difference of the residuals, every mode solved anew."""
     after, before = (hypothesis.residuals(z + sign * change) for sign in (1, -1))
     return np.asarray((after - before) / (2 * STEP))
+
+
+def test_every_measured_order_has_its_own_mesh_factors(hypothesis: Hypothesis) -> None:
+    (stage,) = hypothesis.study.stages
+    error = mesh_error(stage.setup, stage.ring, stage.reference, stage.density)
+    assert {key[0] for key in error.factors} >= {0, 2, 3}
+    assert error.factor((0, 1, 0)) != error.factor((1, 1, 0))

@@ -1,0 +1,46 @@
+"""What the modes that were seen do not tell counts for little; what they tell decides."""
+
+from __future__ import annotations
+
+from statorhom.diagnose.held_out import HeldOut
+
+TOLD = (
+    ("stack-free", (2, 0, 0)),
+    ("stack-free", (3, 0, 0)),
+    ("stack-free", (4, 0, 0)),
+    ("stack-free", (2, 1, 0)),
+)
+OPEN = ("wound-free", (2, 0, 0))
+
+
+def errors(open_noise: float, after: float = 2.0) -> HeldOut:
+    """Four modes that are met, and one that is missed; the noise of the latter."""
+    return HeldOut(
+        (*TOLD, OPEN),
+        (1.0, 0.8, 0.9, 1.1, 1.0),
+        (0.1, 0.1, 0.1, 0.1, after),
+        (0.1, 0.1, 0.1, 0.1, open_noise),
+    )
+
+
+def test_a_mode_that_the_others_do_not_tell_hides_nothing() -> None:
+    assert errors(3.0).falls
+    assert not errors(3.0).worsens
+    assert errors(3.0).after_rms < 0.2 < 0.8 < errors(3.0).before_rms
+
+
+def test_one_that_they_tell_and_that_gets_worse_does() -> None:
+    assert errors(0.1).worsens
+    assert errors(0.1).after_rms > 0.8
+
+
+def test_one_extrapolation_that_fails_is_not_all_that_counts() -> None:
+    found = HeldOut(TOLD, (5.0, 0.8, 0.9, 1.1), (5.0, 0.1, 0.1, 0.1), (0.1,) * 4)
+    assert found.after_rms > 0.75 * found.before_rms
+    assert found.falls
+
+
+def test_nothing_that_was_held_out_proves_nothing() -> None:
+    empty = HeldOut((), (), (), ())
+    assert not empty.falls
+    assert empty.before_rms == 0.0

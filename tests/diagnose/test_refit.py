@@ -1,0 +1,59 @@
+"""A refit that can no longer matter is left where it stands; one that can is finished."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from statorhom.diagnose.refit import refit
+
+FLOOR = 10.0  # residual that no coordinate moves
+
+
+@dataclass
+class Valley:
+    """Residuals (10 (e^z - 2), 10): the optimum is near ln 2, its objective a little over 100."""
+
+    missed: float = 0.0
+    held: Any = None
+    asked: list[float] = field(default_factory=list)
+
+    @property
+    def prior_weights(self) -> np.ndarray:
+        return np.array([1e-4])
+
+    def limits(self) -> tuple[np.ndarray, np.ndarray]:
+        return np.array([-10.0]), np.array([10.0])
+
+    def paired(self, _: np.ndarray) -> Valley:
+        return self
+
+    def residuals(self, z: np.ndarray) -> np.ndarray:
+        self.asked.append(float(z[0]))
+        return np.array([10 * (np.exp(z[0]) - 2), FLOOR])
+
+    def features(self, z: np.ndarray) -> list[SimpleNamespace]:
+        return [SimpleNamespace(lost=False, residual=r) for r in self.residuals(z)]
+
+
+def found(worth: float) -> tuple[float, float, int]:
+    valley = Valley()
+    best = refit(valley, np.array([-3.0]), worth=worth)  # type: ignore[type-var]
+    return float(best.z[0]), best.objective, len(valley.asked)
+
+
+def test_an_optimum_that_matters_is_found() -> None:
+    z, objective, _ = found(np.inf)
+    assert z == pytest.approx(np.log(2), abs=1e-3)
+    assert objective == pytest.approx(FLOOR**2, abs=0.1)
+    assert found(FLOOR**2 + 5) == pytest.approx((z, objective, found(np.inf)[2]))
+
+
+def test_one_that_does_not_is_given_up_early() -> None:
+    _, objective, asked = found(0.5 * FLOOR**2)
+    assert objective > FLOOR**2 + 1
+    assert asked < found(np.inf)[2]
