@@ -94,12 +94,12 @@ def modes_below(
 
 
 def lowest_modes(
-    K: sp.csr_array, M: sp.csr_array, count: int, scale_hz: float
+    K: sp.csr_array, M: sp.csr_array, count: int, scale_hz: float, back_end: Factorize = factorize
 ) -> tuple[np.ndarray, np.ndarray]:
     """The `count` lowest eigenpairs; `scale_hz` is a typical frequency of theirs."""
     sigma = -SHIFT * (2 * np.pi * scale_hz) ** 2
     with one_blas_thread():
-        return _lowest(K, M, sigma, factorize(sp.csr_array(K - sigma * M)), count)
+        return _lowest(K, M, sigma, back_end(sp.csr_array(K - sigma * M)), count)
 
 
 def _lowest(

@@ -209,7 +209,7 @@ def _parity_basis(
         else:
             # as many as the reference has in the band, wherever they lie at these materials
             inside = int(np.count_nonzero(found[0][1] < (2 * np.pi * NEAR * highest_hz) ** 2))
-            values, y = lowest_modes(K_p, M_p, inside + 1, highest_hz)
+            values, y = lowest_modes(K_p, M_p, inside + 1, highest_hz, sturdy)
         found.append((space.expand(y) / np.sqrt(space.copies), values))
     copies = model.mesh.copies
     first, values = found[0]
