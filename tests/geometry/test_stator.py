@@ -87,7 +87,12 @@ def test_a_step_has_the_regions_of_its_steps_in_their_order(name, kinds):
     assert regions == ("lamination", *wound, *added)
 
 
-@pytest.mark.parametrize("path", sorted(GEOMETRIES.glob("*.toml")), ids=lambda p: p.stem)
+SHIPPED_STATORS = [
+    p for p in sorted(GEOMETRIES.glob("*.toml")) if "\n[core]" in p.read_text(encoding="utf-8")
+]
+
+
+@pytest.mark.parametrize("path", SHIPPED_STATORS, ids=lambda p: p.stem)
 def test_every_step_that_a_shipped_geometry_has_tables_for_can_be_built(path):
     file = read_geometry(path)
     geometry = stator_geometry(file, path)

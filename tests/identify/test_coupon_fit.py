@@ -18,7 +18,6 @@ from coupon_study import (
     write_study,
 )
 from statorhom.api import Study
-from statorhom.errors import InputFileError
 from statorhom.geometry.block import BlockGeometry
 from statorhom.geometry.tested_object import object_geometry
 from statorhom.identify.chain import chain
@@ -59,13 +58,6 @@ def test_a_tube_keeps_its_labels(tmp_path: Path) -> None:
     setup = stage_setup(files, object_geometry(files.drawing, files.geometry_path), 0)
     assert [(mode.order, mode.axial) for mode in setup.fitted] == [(2, 0)]
     assert setup.step is not None and setup.step.regions == ("tube",)
-
-
-def test_diagnose_and_effects_say_that_they_are_for_stators(tmp_path: Path) -> None:
-    (tmp_path / "free.csv").write_text("frequency_hz\n200.0\n", encoding="utf-8")
-    study = Study.load(write_study(tmp_path, PLATE, study_text("plate", "isotropic", 0.6, TABLE)))
-    with pytest.raises(InputFileError, match=r"a plate is no stator.*; use simulate, fit, run or report"):
-        study.diagnose(tmp_path / "out")
 
 
 def test_a_beam_is_simulated_and_identified_from_its_table(tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from statorhom.recordings.estimation.overload import is_clipped
@@ -27,6 +27,7 @@ SIGNALS = {
 }
 
 
+@example(frequency_hz=60.359375, decay_per_s=5.0, phase=5.0, bits=13, noise=1e-4)
 @given(**SIGNALS, bits=st.integers(10, 24), noise=st.sampled_from([0.0, 1e-4, 0.01, 0.03]))
 def test_no_smooth_record_is_clipped(
     frequency_hz: float, decay_per_s: float, phase: float, bits: int, noise: float

@@ -12,9 +12,9 @@ FloatArray = npt.NDArray[np.float64]
 _SIDE = 0.25  # of the largest swing; a hammer only pushes, and its rest on the other side is no top
 _FEWEST = 3  # samples that equal the extreme
 _FINEST_STEP = 1e-5  # of the extreme: universal files in ASCII hold six digits
-_FLAT_DROP = (
-    12.0  # steps; a parabola whose top holds n equal samples drops by at most nine within n beside them
-)
+# steps; a parabola whose top holds n equal samples drops by at most nine within n beside them, three times that where noise
+# lengthens a short top by one
+_FLAT_DROP = 30.0
 _CLOSE = 100.0  # steps
 _LONELY = 2.0  # a smooth top has many more samples close to the extreme than at it
 _PILE_FEWEST = 20  # samples
