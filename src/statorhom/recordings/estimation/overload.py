@@ -12,8 +12,8 @@ FloatArray = npt.NDArray[np.float64]
 _SIDE = 0.25  # of the largest swing; a hammer only pushes, and its rest on the other side is no top
 _FEWEST = 3  # samples that equal the extreme
 _FINEST_STEP = 1e-5  # of the extreme: universal files in ASCII hold six digits
-# steps; a parabola whose top holds n equal samples drops by at most nine within n beside them, three times that where noise
-# lengthens a short top by one
+# steps; a parabola whose top holds n equal samples drops by at most nine within n beside them, and by three times that
+# where noise lengthens a short top by one
 _FLAT_DROP = 30.0
 _CLOSE = 100.0  # steps
 _LONELY = 2.0  # a smooth top has many more samples close to the extreme than at it
