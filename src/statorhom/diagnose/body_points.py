@@ -12,6 +12,7 @@ from statorhom.diagnose.plane_shifts import CLOSE, LARGEST
 from statorhom.extraction.flat_bodies import is_flat_body
 from statorhom.extraction.local_poles import local_poles
 from statorhom.extraction.measured_modes import MeasuredModes, NamedMode
+from statorhom.modes.mac import mac
 
 RIGID = "rigid body"
 SAME_SHAPE = 0.8  # MAC
@@ -40,9 +41,8 @@ def _size(one: NamedMode) -> float:
 
 def _alike(one: NamedMode, other: NamedMode) -> bool:
     """Whether two modes have one shape and nearly one frequency."""
-    a, b = (np.nan_to_num(m.mode.shape) for m in (one, other))
-    mac = float(abs(np.vdot(a, b)) ** 2 / (np.vdot(a, a).real * np.vdot(b, b).real))
-    return abs(np.log(one.mode.frequency_hz / other.mode.frequency_hz)) < CLOSE and mac > SAME_SHAPE
+    near = abs(np.log(one.mode.frequency_hz / other.mode.frequency_hz)) < CLOSE
+    return near and mac(one.mode.shape, other.mode.shape) > SAME_SHAPE
 
 
 def body_points(measured: MeasuredModes, kept: Sequence[int]) -> MeasuredPoints | None:

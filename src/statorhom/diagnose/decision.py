@@ -19,7 +19,7 @@ RIVAL = (
 )
 ADEQUATE = 0.01
 STABLE = 0.8
-FEW = 4  # modes that show an effect, below which three folds cannot decide
+FEW = 4  # modes that show an effect, below which held-out modes cannot decide
 NEAR_BOUND = 0.02  # of a parameter's range, in its own scale
 
 

@@ -20,7 +20,7 @@ from statorhom.physics.candidate import Candidate
 
 _H = TypeVar("_H", bound=AnyHypothesis)
 
-COARSE = 0.03
+COARSE = 0.03  # discrepancy with which wide valleys are found
 ADEQUATE = 0.01  # chance of a misfit above which nothing is left to explain
 ROWS = 8  # of which one may be grossly wrong
 DRAWS = 4000

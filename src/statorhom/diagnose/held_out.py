@@ -71,8 +71,11 @@ class HeldOut:
 
     def _weighted(self, errors: Sequence[float]) -> float:
         """Root mean square; what the modes that were seen do not tell counts for little."""
-        e, n = np.array(errors), np.maximum(np.array(self.noise), LEAST_NOISE)
-        return float(np.sqrt(np.sum((e / n) ** 2) / np.sum(1 / n**2))) if len(e) else 0.0
+        weights = self._in_noise(np.ones(len(errors)))
+        return float(np.linalg.norm(self._in_noise(errors)) / np.linalg.norm(weights)) if len(errors) else 0.0
+
+    def _in_noise(self, errors: Sequence[float] | np.ndarray) -> np.ndarray:
+        return np.array(errors) / np.maximum(np.array(self.noise), LEAST_NOISE)
 
     @property
     def falls(self) -> bool:
@@ -92,19 +95,16 @@ class HeldOut:
     @property
     def _by_chi2(self) -> bool:
         """The fall of the squared errors in units of noise, against its own standard error."""
-        b, a, n = (np.array(v) for v in (self.before, self.after, self.noise))
-        fall = float(np.sum((b / n) ** 2 - (a / n) ** 2))
-        return fall > ERRORS * float(np.sqrt(2 * len(b) + 4 * np.sum((a / n) ** 2))) and fall > 0
+        before, after = (float(np.sum(self._in_noise(v) ** 2)) for v in (self.before, self.after))
+        return before - after > ERRORS * float(np.sqrt(2 * len(self.groups) + 4 * after))
 
     @property
     def worsens(self) -> bool:
         """Whether a test's error grows beyond its noise."""
-        for test in {g[0] for g in self.groups}:
-            own = [i for i, g in enumerate(self.groups) if g[0] == test]
-            b, a = (
-                _rms([v[i] / max(self.noise[i], LEAST_NOISE) for i in own]) for v in (self.before, self.after)
-            )
-            if a > WORSE * max(b, 1.0):
+        tests = np.array([test for test, _ in self.groups])
+        for test in set(tests.tolist()):
+            before, after = (_rms(self._in_noise(v)[tests == test]) for v in (self.before, self.after))
+            if after > WORSE * max(before, 1.0):
                 return True
         return False
 
@@ -231,5 +231,5 @@ def _scale(feature: Feature) -> float:
     return feature.predicted if feature.kind == "density" else 1.0
 
 
-def _rms(values: Sequence[float]) -> float:
-    return float(np.sqrt(np.mean(np.square(values)))) if len(values) else 0.0
+def _rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(np.square(values))))

@@ -1,6 +1,6 @@
 """Held-out error of a corrected name: the mode itself, predicted from all others, by its old and by its new name.
 
-Modes that are rightly named cannot tell whether another one is not, so three folds say nothing here.
+Modes that are rightly named cannot tell whether another one is not, so folds say nothing here.
 """
 
 from __future__ import annotations

@@ -33,7 +33,7 @@ WORTH = 2.0  # gain of the scan below which an effect is not refitted
 MOST = 12  # candidates that are refitted
 RELABELLED = 4
 POOR = 3.0  # squared residual per feature above which another valley is looked for
-CHEAP, DEAR = 0, 2  # prices
+CHEAP, MIDDLING, DEAR = range(3)  # prices
 NEAR = 60.0  # of the objective: what does not come so near to an adequate explanation is given up
 
 
@@ -142,7 +142,7 @@ def _price(trial: tuple[float, list[_Start]]) -> int:
     action = start.hypothesis.actions(start.z)[0]
     if action.joint is not None:
         return DEAR
-    return CHEAP if action.changes is None else CHEAP + 1
+    return CHEAP if action.changes is None else MIDDLING
 
 
 def _best_refit(starts: Sequence[_Start], worth: float, *, far: bool) -> Refit | None:

@@ -187,9 +187,7 @@ def mesh_error(setup: StageSetup, ring: RingBasis, materials: Materials, density
     fine = problem_at(finer, materials).solve(ring.highest_hz, orders, MOST)
     coarse = FreeModes(ring.solve(materials).modes, (), (), ())
     found = converge([1.0, 1 / FINER], [ring.model.mesh.full_dof, finer.mesh.full_dof], [coarse, fine])
-    return ModelError(
-        factors={c.key: c.factor for c in found}, corrections={c.key: c.factor - 1.0 for c in found}
-    )
+    return ModelError.of_factors({c.key: c.factor for c in found})
 
 
 def with_reference(stage: StageModel, materials: Materials) -> StageModel:

@@ -10,7 +10,8 @@ from scipy.stats import norm, qmc
 from typing_extensions import TypeVar
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
-from statorhom.diagnose.refit import Refit, refit
+from statorhom.diagnose.explanations import COARSE, refitted
+from statorhom.diagnose.refit import Refit
 from statorhom.errors import IdentificationError, StatorhomError
 
 _H = TypeVar("_H", bound=AnyHypothesis)
@@ -19,7 +20,6 @@ _H = TypeVar("_H", bound=AnyHypothesis)
 TRIALS, STARTS, SHARPENED = 200, 16, 3
 APART = 1.0  # prior standard deviations between starts
 BEHIND = 20.0  # of the objective in wide valleys: what stays so far behind is no other optimum worth keeping
-COARSE = 0.03  # discrepancy with which valleys are found
 SPREAD = 1.1  # of the prior: how far materials to try lie apart
 
 
@@ -61,9 +61,9 @@ def optima(blank: _H, trials: Sequence[np.ndarray]) -> list[Refit[_H]]:
     for z in _apart([z for _, z in scored]):
         # what promises nothing beside the best so far is not followed
         worth = min((r.objective for r in wide), default=np.inf) + BEHIND
-        wide += [r] if (r := _refitted(coarse, z, worth)) is not None else []
+        wide += [r] if (r := refitted(coarse, z, worth)) is not None else []
     wide.sort(key=lambda r: r.objective)
-    found = [r for w in wide[:SHARPENED] if (r := _refitted(blank, w.z)) is not None]
+    found = [r for w in wide[:SHARPENED] if (r := refitted(blank, w.z)) is not None]
     if not found:
         raise IdentificationError("no start of the declared model could be fitted; check masses and tables")
     found.sort(key=lambda r: r.objective)
@@ -81,10 +81,3 @@ def _apart(points: Sequence[np.ndarray]) -> list[np.ndarray]:
         if len(chosen) < STARTS and all(np.linalg.norm(z - other) > APART for other in chosen):
             chosen.append(z)
     return chosen
-
-
-def _refitted(hypothesis: _H, z: np.ndarray, worth: float = np.inf) -> Refit[_H] | None:
-    try:
-        return refit(hypothesis, z, worth=worth)
-    except StatorhomError:
-        return None

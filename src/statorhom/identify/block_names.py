@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from statorhom.errors import IdentificationError
@@ -30,13 +32,22 @@ def block_names(mesh: MirrorMesh, solution: FreeModes) -> dict[ModeKey, str]:
     return {key: surface.name(solution, mode) for key, mode in mode_keys(solution.modes).items()}
 
 
+@dataclass(frozen=True, eq=False)
 class _Surface:
-    """Corners of elements on the face of the whole body that the plan form is seen on."""
+    """Corners of elements on the face of the whole body that the plan form is seen on.
 
-    def __init__(
-        self, mesh: MirrorMesh, points: np.ndarray, source: np.ndarray, mirrored: np.ndarray
-    ) -> None:
-        self.mesh, self.points, self.source, self.mirrored = mesh, points, source, mirrored
+    Parameters
+    ----------
+    mesh : of the part beside the planes of symmetry.
+    points : ndarray, shape (points, 3); on the whole body.
+    source : ndarray, shape (points,); node of the part that each is or is mirrored from.
+    mirrored : ndarray of bool, shape (points, planes); at which planes.
+    """
+
+    mesh: MirrorMesh
+    points: np.ndarray
+    source: np.ndarray
+    mirrored: np.ndarray
 
     @classmethod
     def of(cls, mesh: MirrorMesh) -> _Surface:

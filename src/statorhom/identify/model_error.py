@@ -39,6 +39,11 @@ class ModelError:
     corrections: Mapping[ModeKey, float] = field(default_factory=dict)
     effects: Mapping[ModeKey, Response] = field(default_factory=dict)
 
+    @classmethod
+    def of_factors(cls, factors: Mapping[ModeKey, float]) -> ModelError:
+        """Of mesh factors alone: all that they correct is the mesh's."""
+        return cls(factors=factors, corrections={key: factor - 1.0 for key, factor in factors.items()})
+
     def factor(self, key: ModeKey) -> float:
         """Mesh factor of a mode."""
         return _nearest(self.factors, key, 1.0)

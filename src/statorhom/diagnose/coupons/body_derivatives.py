@@ -33,7 +33,8 @@ CLOSE = 1e-6  # of λ: modes that are one as far as slopes go
 def _(h: BodyHypothesis, z: FloatArray) -> FloatArray:
     told = h.predictions(z)
     start = [f for f in h.features_told(z, told) if h.sees(f)]
-    terms = {name: _terms(stage, told[name], h.study.scale(h.actions(z))) for stage, name in h.tests}
+    scale = h.study.scale(h.actions(z))
+    terms = {name: _Terms(stage.body.basis, told[name], scale) for stage, name in h.tests}
     columns = [_constant_column(h, z, j, told, terms, start) for j in range(h.constants)]
     columns += [difference(h, z, j, start) for j in range(h.constants, len(z))]
     return np.array(columns).T.reshape(len(start), len(z))
@@ -120,7 +121,3 @@ class _Terms:
         mixed = np.where(far, coupling / np.where(far, apart, 1.0), 0.0)
         turned = told.solved.vectors @ mixed[:, told.elastic]
         return replace(told, log_f=log_f, motion=told.motion + stage.motion(test) @ turned)
-
-
-def _terms(stage: BodyStage, told: PredictedBody, scale: Scale) -> _Terms:
-    return _Terms(stage.body.basis, told, scale)

@@ -178,8 +178,7 @@ def _mesh_error(series: MeshSeries, body: ActedBody) -> MeshError:
         for key in coarse
         if key in fine
     }
-    factors = {key: limit / coarse[key] for key, limit in limits.items()}
-    error = ModelError(factors=factors, corrections={key: f - 1.0 for key, f in factors.items()})
+    error = ModelError.of_factors({key: limit / coarse[key] for key, limit in limits.items()})
     return MeshError(error, {key: min(1.0, mode.visibility / SEEN) for key, mode in fine.items()})
 
 
