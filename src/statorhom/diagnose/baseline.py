@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from statorhom.diagnose.constants import Constants, study_constants
+from statorhom.diagnose.explanations import nothing, widened
 from statorhom.diagnose.features import SCATTER_SD
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.measured import MeasuredTest
@@ -15,7 +16,7 @@ from statorhom.diagnose.prediction import acted_materials, with_rules
 from statorhom.diagnose.refit import Refit, evaluated, refit
 from statorhom.diagnose.stage_model import StageModel, mesh_error, stage_model, with_reference
 from statorhom.diagnose.study_model import StudyModel
-from statorhom.diagnose.valleys import optima, trials_around
+from statorhom.diagnose.valleys import trials_around, wide_optima
 from statorhom.errors import IdentificationError, StatorhomError
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.identify.settings import Settings
@@ -28,6 +29,9 @@ from statorhom.study.study_file import FREE
 SNAPSHOTS = 6  # materials that are solved per step
 SAME_HZ = 2e-4  # relative: a basis is good enough when a snapshot moves no frequency by more
 ROUNDS = 3
+FOLLOWED = 3  # valleys
+ALIKE = 5.0  # of the objective in wide valleys, between which there is nothing to choose
+CONVINCING = 0.1  # chance of a misfit above which no other valley is followed
 MAX_SCATTER_ORDER = 8
 
 
@@ -103,7 +107,28 @@ def _with_step(
     stage = stage_model(setup, tests, snapshots, settings.density)
     study = study.with_stages((*study.stages, stage))
     # constants of earlier steps stay while new ones are sought
-    found, *others = optima(Hypothesis(study), trials)
+    wide = wide_optima(Hypothesis(study), trials)[:FOLLOWED]
+    found: list[Refit[Hypothesis]] = []
+    for one in wide:
+        if one.objective > wide[0].objective + ALIKE:
+            break
+        # what a coarse mesh is wrong by differs from valley to valley: none is the best before that is known
+        found.append(_settled(study, one, settings))
+        if nothing(found[-1]).adequacy > CONVINCING:
+            break
+    best = found[-1] if nothing(found[-1]).adequacy > CONVINCING else min(found, key=_wide_objective)
+    others = (*(r.z for r in found if r is not best), *(r.z for r in wide[len(found) :]))
+    return best.hypothesis.study, best.z, others
+
+
+def _wide_objective(found: Refit[Hypothesis]) -> float:
+    """In wide valleys: where no optimum is any good, small uncertainties would weigh accidents."""
+    rough = widened(found.hypothesis, found.z)
+    return np.inf if rough is None else rough.objective
+
+
+def _settled(study: StudyModel, found: Refit[Hypothesis], settings: Settings) -> Refit[Hypothesis]:
+    """Refitted with a basis and mesh factors of its own, until the basis moves no frequency any more."""
     for number in range(ROUNDS):
         stage = study.stages[-1]
         materials = acted_materials(study, stage, study.constants.values(found.z), study.effects)
@@ -111,12 +136,13 @@ def _with_step(
         better = with_reference(stage, materials)
         moved = max(abs(np.log(_frequencies(better, materials)[k] / f)) for k, f in before.items())
         if number == 0:
-            better = replace(better, error=mesh_error(setup, better.ring, materials, settings.density))
+            error = mesh_error(stage.setup, better.ring, materials, settings.density)
+            better = replace(better, error=error)
         study = study.with_stages((*study.stages[:-1], better))
         found = refit(Hypothesis(study), found.z)
         if number > 0 and moved < SAME_HZ:
             break
-    return study, found.z, tuple(r.z for r in others)
+    return found
 
 
 def _frequencies(stage: StageModel, materials: Materials) -> dict[int, float]:

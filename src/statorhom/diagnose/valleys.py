@@ -11,7 +11,7 @@ from typing_extensions import TypeVar
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.explanations import COARSE, refitted
-from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.refit import Refit, refit_objective
 from statorhom.errors import IdentificationError, StatorhomError
 
 _H = TypeVar("_H", bound=AnyHypothesis)
@@ -20,6 +20,7 @@ _H = TypeVar("_H", bound=AnyHypothesis)
 TRIALS, STARTS, SHARPENED = 200, 16, 3
 APART = 1.0  # prior standard deviations between starts
 BEHIND = 20.0  # of the objective in wide valleys: what stays so far behind is no other optimum worth keeping
+NO_START = "no start of the declared model could be fitted; check masses and tables"
 SPREAD = 1.1  # of the prior: how far materials to try lie apart
 
 
@@ -48,27 +49,46 @@ def optima(blank: _H, trials: Sequence[np.ndarray]) -> list[Refit[_H]]:
     IdentificationError
         If no point could be fitted.
     """
+    wide = wide_optima(blank, trials)
+    found = [r for w in wide[:SHARPENED] if (r := refitted(blank, w.z)) is not None]
+    if not found:
+        raise IdentificationError(NO_START)
+    return _different(found)
+
+
+def wide_optima(blank: _H, trials: Sequence[np.ndarray]) -> list[Refit[_H]]:
+    """Different optima in wide valleys, the best first; for those who do not know yet what the mesh is wrong by.
+
+    Parameters
+    ----------
+    blank, trials : as for `optima`.
+
+    Raises
+    ------
+    IdentificationError
+        If no point could be fitted.
+    """
     coarse = replace(blank, discrepancy=COARSE)
     scored = []
     for z in trials:
         try:
-            hypothesis = coarse.paired(z)
-            scored.append((float(np.sum(hypothesis.residuals(z) ** 2) + z @ z) + hypothesis.missed, z))
+            scored.append((refit_objective(coarse, z), z))
         except StatorhomError:
             continue
     scored.sort(key=lambda pair: pair[0])
-    wide: list[Refit[_H]] = []
+    found: list[Refit[_H]] = []
     for z in _apart([z for _, z in scored]):
         # what promises nothing beside the best so far is not followed
-        worth = min((r.objective for r in wide), default=np.inf) + BEHIND
-        wide += [r] if (r := refitted(coarse, z, worth)) is not None else []
-    wide.sort(key=lambda r: r.objective)
-    found = [r for w in wide[:SHARPENED] if (r := refitted(blank, w.z)) is not None]
+        worth = min((r.objective for r in found), default=np.inf) + BEHIND
+        found += [r] if (r := refitted(coarse, z, worth)) is not None else []
     if not found:
-        raise IdentificationError("no start of the declared model could be fitted; check masses and tables")
-    found.sort(key=lambda r: r.objective)
+        raise IdentificationError(NO_START)
+    return _different(found)
+
+
+def _different(found: Sequence[Refit[_H]]) -> list[Refit[_H]]:
     chosen: list[Refit[_H]] = []
-    for r in found:
+    for r in sorted(found, key=lambda r: r.objective):
         if all(np.linalg.norm(r.z - other.z) > APART for other in chosen):
             chosen.append(r)
     return chosen
