@@ -34,7 +34,7 @@ def test_all_rules_met_names() -> None:
         ({"over_nothing": 4.0}, "unknown"),
         ({"over_nothing": 4.0, "nothing_adequacy": 0.3}, "none"),
         ({"over_others": 2.0}, "ambiguous"),
-        ({"held_out": None}, "unknown"),
+        ({"held_out": None}, "ambiguous"),
         ({"held_out": replace(FALLS, after=FALLS.before)}, "unknown"),
         ({"adequacy": 1e-3}, "unknown"),
         ({"within": False}, "unknown"),
@@ -66,14 +66,15 @@ def test_a_test_that_worsens_is_seen() -> None:
 FEW = HeldOut(GROUPS, (0.1, 0.1, 2.0, 0.1, 0.1, 0.1), (0.1, 0.1, 2.0, 0.1, 0.1, 0.1), (0.1,) * 6)
 
 
-def test_too_few_modes_for_held_out_leave_sound_rivals_ambiguous() -> None:
-    close = replace(GOOD, held_out=FEW, over_others=0.4, rivals=1)
-    assert decide(close) == "ambiguous"
-    assert decide(replace(close, held_out=None)) == "ambiguous"
-    assert decide(replace(close, rivals=0)) == "unknown"
-    assert decide(replace(close, adequacy=1e-3)) == "unknown"
+def test_too_few_modes_for_held_out_confirm_nothing() -> None:
+    unconfirmed = replace(GOOD, held_out=FEW)
+    assert decide(unconfirmed) == "ambiguous"
+    assert decide(replace(unconfirmed, adequacy=1e-3)) == "unknown"
     # enough modes, and they contradict
-    assert decide(replace(close, held_out=replace(FALLS, after=FALLS.before))) == "unknown"
+    assert decide(replace(unconfirmed, held_out=replace(FALLS, after=FALLS.before))) == "unknown"
+    # few modes, and they contradict
+    worse = replace(FEW, after=(0.1, 0.1, 9.0, 0.1, 0.1, 0.1))
+    assert decide(replace(unconfirmed, held_out=worse)) == "unknown"
 
 
 def test_one_explanation_alone_is_never_ambiguous() -> None:

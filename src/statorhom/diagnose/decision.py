@@ -14,9 +14,6 @@ from statorhom.diagnose.held_out import HeldOut
 Verdict = Literal["none", "named", "ambiguous", "unknown"]
 MAX_T_P = 0.01
 OVER_NOTHING, OVER_OTHERS = 5.0, 3.0  # of log evidence
-RIVAL = (
-    8.0  # log evidence behind the best one within which an explanation counts where no held-out mode decides
-)
 ADEQUATE = 0.01
 STABLE = 0.8
 FEW = 4  # modes that show an effect, below which held-out modes cannot decide
@@ -36,7 +33,6 @@ class Evidence:
     nothing_adequacy : and of the declared model, with every row.
     within : whether all magnitudes lie inside their physical ranges, off the bounds.
     stability : share of resamplings with the same winner.
-    rivals : number of other sound explanations that the evidence alone does not rule out.
     """
 
     p_value: float
@@ -47,7 +43,6 @@ class Evidence:
     nothing_adequacy: float
     within: bool
     stability: float
-    rivals: int = 0
 
     @property
     def detected(self) -> bool:
@@ -66,9 +61,9 @@ class Evidence:
 
     @property
     def undecided(self) -> bool:
-        """Whether rule 3 has too few modes that show anything, while several sound explanations stand side by side."""
-        few = self.held_out is None or self.held_out.informative < FEW
-        return few and self.rivals > 0
+        """Whether rule 3 has too few modes that show anything: they cannot contradict, nor can they confirm."""
+        few = self.held_out is None or (self.held_out.informative < FEW and not self.held_out.worsens)
+        return few and bool(np.isfinite(self.over_others))
 
 
 def decide(evidence: Evidence) -> Verdict:
@@ -82,11 +77,6 @@ def decide(evidence: Evidence) -> Verdict:
     # resamplings are lost to rivals alone, so that an unstable winner has some
     alone = evidence.over_others > OVER_OTHERS and evidence.stability >= STABLE
     return "named" if alone else "ambiguous"
-
-
-def is_sound(explanation: Explanation) -> bool:
-    """Rule 4 for any explanation."""
-    return explanation.adequacy_but_one > ADEQUATE and within_bounds(explanation)
 
 
 def within_bounds(explanation: Explanation) -> bool:

@@ -14,11 +14,9 @@ from statorhom.diagnose.approach import RING, Approach
 from statorhom.diagnose.baseline import Baseline
 from statorhom.diagnose.coupons.body_approach import BODY
 from statorhom.diagnose.decision import (
-    RIVAL,
     Evidence,
     Verdict,
     decide,
-    is_sound,
     others,
     within_bounds,
 )
@@ -189,7 +187,6 @@ def _evidence(
         nothing_adequacy=none.adequacy,
         within=within_bounds(best),
         stability=stability([common, none, *rest[: COMPARED - 2]], seed),
-        rivals=sum(own - totals[e.effects] <= RIVAL and is_sound(e) for e in rest),
     )
 
 
