@@ -14,6 +14,7 @@ from statorhom.diagnose.approach import RING, Approach
 from statorhom.diagnose.baseline import Baseline
 from statorhom.diagnose.coupons.body_approach import BODY
 from statorhom.diagnose.decision import (
+    MAX_T_P,
     Evidence,
     Verdict,
     decide,
@@ -44,7 +45,7 @@ from statorhom.diagnose.report_rows import (
 from statorhom.diagnose.resampling import stability
 from statorhom.diagnose.scan import Scan, rescanned, scan
 from statorhom.diagnose.simpler import by_criterion, simpler_fits
-from statorhom.diagnose.single_effects import WORTH, single_effects
+from statorhom.diagnose.single_effects import WORTH, new_names, single_effects
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.geometry.tested_object import ObjectGeometry
 from statorhom.identify.announce import Announce, silent
@@ -127,11 +128,16 @@ def _find(
     signatures = scan(base.free, [c for c in candidates if c.parameters], settings.seed)
     progress(1)
     progress = announce("explanations", 1)
-    found = single_effects(base.free, signatures, [c for c in candidates if not c.parameters], counts)
-    if found and found[0].adequacy < ADEQUATE:
-        found = approach.refined(found, base.valleys, counts)
-    if found and found[0].adequacy < ADEQUATE:
-        found = _pairs(base, found, signatures, counts) + found
+    discrete = [c for c in candidates if not c.parameters]
+    if signatures.p_value < MAX_T_P:
+        found = single_effects(base.free, signatures, discrete, counts)
+        if found and found[0].adequacy < ADEQUATE:
+            found = approach.refined(found, base.valleys, counts)
+        if found and found[0].adequacy < ADEQUATE:
+            found = _pairs(base, found, signatures, counts) + found
+    else:
+        # nothing but another name can be found any more
+        found = new_names(base.free, discrete, counts)
     progress(1)
     none = nothing(base.refit)
     best = found[0] if found else none

@@ -73,11 +73,26 @@ def single_effects(
         best = _best_refit(starts, worth, far=is_poor(base))
         if best is not None:
             explanations.append(explained(best, counts))
-    for candidate in worth_trying(base, discrete)[:RELABELLED]:
-        best = _best_refit([_start(base, candidate, np.empty(0))], _worth(explanations), far=False)
-        if best is not None:
-            explanations.append(explained(best, counts))
+    explanations += new_names(base, discrete, counts, _worth(explanations))
     return sorted(explanations, key=lambda e: -e.log_evidence)
+
+
+def new_names(
+    base: Refit, discrete: Sequence[Candidate], counts: dict[str, int], worth: float = np.inf
+) -> list[Explanation]:
+    """Refits of the most promising candidates without parameters, the best first.
+
+    Parameters
+    ----------
+    base, discrete, counts : as for `single_effects`.
+    worth : objective above which an explanation is no rival.
+    """
+    found = [
+        explained(best, counts)
+        for candidate in worth_trying(base, discrete)[:RELABELLED]
+        if (best := _best_refit([_start(base, candidate, np.empty(0))], worth, far=False)) is not None
+    ]
+    return sorted(found, key=lambda e: -e.log_evidence)
 
 
 def is_poor(found: Refit) -> bool:
