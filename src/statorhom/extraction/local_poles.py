@@ -19,6 +19,7 @@ _WINDOW = 3.0  # bandwidths to each side
 _LEAST_LINES = 6  # to each side
 _STARTS = np.linspace(-3.0, 3.0, 13)  # bandwidths
 _ITERATIONS = 12
+_SETTLED = 1e-6  # of χ²: what a further step would gain
 
 
 @dataclass(frozen=True)
@@ -70,16 +71,19 @@ def _shifts(
     mode: ExtractedMode, omega: FloatArray, values: ComplexArray, sd: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Gauss–Newton on the shift of each FRF, from the best of a row of starts."""
+    fit = _ShiftFit.of(mode.observed, omega, values, sd)
     loss = mode.observed.imag / mode.observed.real
     starts = 0.5 * _STARTS * loss
-    chi2 = np.array([_profile(mode, omega, values, sd, np.full(len(values), one))[0] for one in starts])
+    chi2 = np.array([fit.profile(np.full(len(values), one))[0] for one in starts])
     shift = starts[np.argmin(chi2, axis=0)]
-    best, gradient, information = _profile(mode, omega, values, sd, shift)
+    best, gradient, information = fit.profile(shift)
     damping = np.full(len(values), 1e-6)
     for _ in range(_ITERATIONS):
         step = gradient / np.maximum(information * (1 + damping), np.finfo(float).tiny)
+        if np.all(gradient * step < _SETTLED):
+            break
         trial = shift + np.clip(step, -0.5 * loss, 0.5 * loss)
-        found = _profile(mode, omega, values, sd, trial)
+        found = fit.profile(trial)
         better = found[0] < best
         damping = np.where(better, damping / 4, np.maximum(8 * damping, 1e-3))
         shift = np.where(better, trial, shift)
@@ -93,25 +97,57 @@ def _shifts(
     return shift, deviation
 
 
-def _profile(
-    mode: ExtractedMode, omega: FloatArray, values: ComplexArray, sd: FloatArray, shift: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """χ² of every FRF with the linear unknowns eliminated, half its negative slope and half its curvature."""
-    squared = omega**2
-    pole = mode.observed * (1 + shift[:, None]) ** 2
-    curve = 1.0 / (pole - squared)
-    constants = residual_lines(np.ones(1, dtype=complex), np.zeros(1, dtype=complex), omega / (2 * np.pi))[0]
-    columns = (
-        np.stack([curve, np.broadcast_to(constants, curve.shape), np.ones_like(curve)], axis=-1)
-        / sd[..., None]
-    )
-    q, r = np.linalg.qr(columns)
-    white = values / sd
-    projected = np.einsum("flc,fl->fc", q.conj(), white)
-    residual = white - np.einsum("flc,fc->fl", q, projected)
-    residue = np.linalg.solve(r, projected[..., None])[:, 0, 0]
-    # ∂/∂δ of residue/(s(1+δ)² − ω²)
-    slope = residue[:, None] * (-2 * mode.observed * (1 + shift[:, None])) * curve**2 / sd
-    slope = slope - np.einsum("flc,fc->fl", q, np.einsum("flc,fl->fc", q.conj(), slope))
-    gradient = np.sum((slope.conj() * residual).real, axis=1)
-    return np.sum(np.abs(residual) ** 2, axis=1), gradient, np.sum(np.abs(slope) ** 2, axis=1)
+@dataclass(frozen=True)
+class _ShiftFit:
+    """χ² of every FRF over its shift; all FRFs side by side.
+
+    Attributes
+    ----------
+    observed : pole of the mode.
+    squared : ω², shape (lines,).
+    sd : shape (FRFs, lines).
+    outside : orthonormal columns, shape (FRFs, lines, 2): what stands for everything else.
+    white : measured in units of noise, without what `outside` explains, shape (FRFs, lines).
+    """
+
+    observed: complex
+    squared: FloatArray
+    sd: FloatArray
+    outside: ComplexArray
+    white: ComplexArray
+
+    @classmethod
+    def of(cls, observed: complex, omega: FloatArray, values: ComplexArray, sd: FloatArray) -> _ShiftFit:
+        """Of measured receptances (FRFs, lines) without the other modes."""
+        line = residual_lines(np.ones(1, dtype=complex), np.zeros(1, dtype=complex), omega / (2 * np.pi))[0]
+        columns = np.stack([line, np.ones_like(line)], axis=-1) / sd[..., None]
+        outside = np.linalg.qr(columns)[0]
+        return cls(observed, omega**2, sd, outside, _without(outside, values / sd))
+
+    def profile(self, shift: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """χ² with the linear unknowns eliminated, half its negative slope and half its curvature."""
+        moved = (1 + shift)[:, None]
+        curve = 1.0 / (self.observed * moved**2 - self.squared)
+        own = _without(self.outside, curve / self.sd)
+        size = _products(own, own).real
+        residue = (_products(own, self.white) / size)[:, None]
+        residual = self.white - residue * own
+        # ∂/∂δ of residue/(s(1+δ)² − ω²)
+        slope = _without(self.outside, residue * (-2 * self.observed * moved) * curve**2 / self.sd)
+        slope = slope - (_products(own, slope) / size)[:, None] * own
+        return (
+            _products(residual, residual).real,
+            _products(slope, residual).real,
+            _products(slope, slope).real,
+        )
+
+
+def _without(basis: ComplexArray, values: npt.NDArray[np.complexfloating]) -> ComplexArray:
+    """Values (f, l) less their part in orthonormal columns (f, l, k)."""
+    parts = basis.conj().transpose(0, 2, 1) @ values[..., None]
+    return np.asarray(values - (basis @ parts)[..., 0])
+
+
+def _products(first: ComplexArray, second: ComplexArray) -> ComplexArray:
+    """Row by row aᴴb."""
+    return np.asarray((first.conj()[:, None, :] @ second[:, :, None])[:, 0, 0])
