@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +12,9 @@ from statorhom.model.stator_mode import StatorMode
 
 # Re-entrant corners bound the order of convergence of frequencies from below, smooth solutions from above.
 ORDERS = (1.2, 3.0)
-LARGEST_STEP = 0.07  # of ln f from mesh to mesh; beyond it, it is another mode
+# of ln f from mesh to mesh; beyond them, it is another mode. A finer mesh is softer, but for what it sees better of the
+# shape of the body.
+LARGEST_FALL, LARGEST_RISE = 0.07, 0.005
 USUAL_ORDER = 2.3  # of graded meshes of slotted cores (measured on the 36-slot machine)
 
 ModeKey = tuple[int, int, int]
@@ -68,27 +70,35 @@ def converge(
     solutions : modes at the same materials.
     """
     tables = [mode_keys(solution.modes) for solution in solutions]
-    found = []
-    for key, mode in tables[0].items():
-        series = _series(key, mode.frequency_hz, tables[1:])
-        if series is not None:
-            found.append(_mode(key, sizes, dofs, series))
-    return tuple(found)
+    series = {key: [mode.frequency_hz] for key, mode in tables[0].items()}
+    for table in tables[1:]:
+        finer: dict[tuple[int, int], list[float]] = {}
+        for key, mode in table.items():
+            finer.setdefault(key[:2], []).append(mode.frequency_hz)
+        series = _continued(series, finer)
+    return tuple(_mode(key, sizes, dofs, frequencies) for key, frequencies in series.items())
 
 
-def _series(key: ModeKey, first_hz: float, finer: Sequence[dict[ModeKey, StatorMode]]) -> list[float] | None:
-    """Frequencies of a mode from mesh to mesh: the next one of its name, None where it is lost.
+def _continued(
+    series: Mapping[ModeKey, list[float]], finer: Mapping[tuple[int, int], Sequence[float]]
+) -> dict[ModeKey, list[float]]:
+    """Series with the frequencies of the next mesh, the nearest of their names first; without those that are lost.
 
     Ranks would not do: a mode that hardly moves the surface may be visible on one mesh alone.
     """
-    series = [first_hz]
-    for table in finer:
-        same = [mode.frequency_hz for k, mode in table.items() if k[:2] == key[:2]]
-        nearest = min(same, key=lambda f: abs(np.log(f / series[-1])), default=None)
-        if nearest is None or abs(np.log(nearest / series[-1])) > LARGEST_STEP:
-            return None
-        series.append(nearest)
-    return series
+    steps = [
+        (abs(step), key, i)
+        for key, frequencies in series.items()
+        for i, found in enumerate(finer.get(key[:2], ()))
+        if -LARGEST_FALL < (step := float(np.log(found / frequencies[-1]))) < LARGEST_RISE
+    ]
+    partners: dict[ModeKey, int] = {}
+    taken: set[tuple[int, int, int]] = set()
+    for _, key, i in sorted(steps):
+        if key not in partners and (*key[:2], i) not in taken:
+            partners[key] = i
+            taken.add((*key[:2], i))
+    return {key: [*series[key], finer[key[:2]][i]] for key, i in partners.items()}
 
 
 def _mode(
