@@ -64,6 +64,18 @@ def test_modes_are_followed_by_name_and_frequency():
     assert found[0].sd > 0.0
 
 
+def test_a_finer_mesh_is_softer_and_no_two_modes_become_one():
+    coarse = solution(mode(4090.0), mode(4700.0))
+    # what the coarse mesh has at 4090 Hz has another name on the fine one
+    fine = solution(mode(4300.0), mode(4650.0))
+    found = converge([1.0, 1 / 1.5], [100, 300], [coarse, fine])
+    assert [c.frequency_hz for c in found] == [(4700.0, 4650.0)]
+    both = converge(
+        [1.0, 1 / 1.5], [100, 300], [solution(mode(4500.0), mode(4700.0)), solution(mode(4480.0))]
+    )
+    assert [c.frequency_hz for c in both] == [(4500.0, 4480.0)]
+
+
 def test_keys_count_modes_of_one_name_from_below():
     modes = [mode(1000.0), mode(1100.0, 2, 1), mode(1200.0), mode(1300.0, None, None)]
     assert list(mode_keys(modes)) == [(2, 0, 0), (2, 1, 0), (2, 0, 1)]

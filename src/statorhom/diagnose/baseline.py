@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from statorhom.diagnose.constants import Constants, study_constants
+from statorhom.diagnose.constants import new_constants, study_constants
 from statorhom.diagnose.explanations import nothing, widened
 from statorhom.diagnose.features import SCATTER_SD
 from statorhom.diagnose.hypothesis import Hypothesis
@@ -148,16 +148,6 @@ def _settled(study: StudyModel, found: Refit[Hypothesis], settings: Settings) ->
 def _frequencies(stage: StageModel, materials: Materials) -> dict[int, float]:
     """Lowest frequencies by number."""
     return {i: m.frequency_hz for i, m in enumerate(stage.solve(materials).modes[:12])}
-
-
-def new_constants(constants: Constants, setup: StageSetup) -> list[int]:
-    """Places of a step's own material constants, those that are not fixed."""
-    prefix = f"{setup.keys.name}:"
-    return [
-        i
-        for i, c in enumerate(constants.items)
-        if c.name.startswith(prefix) and "." in c.name and c.sd > 1e-6
-    ]
 
 
 def _materials(study: StudyModel, setup: StageSetup, points: Sequence[np.ndarray]) -> list[Materials]:

@@ -99,6 +99,16 @@ class Constants:
         return pairs[:, 0], pairs[:, 1]
 
 
+def new_constants(constants: Constants, setup: StageSetup) -> list[int]:
+    """Places of a step's own material constants, those that are not fixed."""
+    prefix = f"{setup.keys.name}:"
+    return [
+        i
+        for i, c in enumerate(constants.items)
+        if c.name.startswith(prefix) and "." in c.name and c.sd > 1e-6
+    ]
+
+
 def study_constants(
     setups: Sequence[StageSetup], orders: Sequence[int], scatter_sd: float, *, with_losses: bool = False
 ) -> Constants:

@@ -21,6 +21,7 @@ from statorhom.physics.candidate import Candidate
 _H = TypeVar("_H", bound=AnyHypothesis)
 
 COARSE = 0.03  # discrepancy with which wide valleys are found
+NARROWING = (0.01, 0.003)
 ADEQUATE = 0.01  # chance of a misfit above which nothing is left to explain
 ROWS = 8  # of which one may be grossly wrong
 DRAWS = 4000
@@ -133,9 +134,17 @@ def widened(hypothesis: _H, z: np.ndarray) -> Refit[_H] | None:
 
 
 def through_wide_valleys(hypothesis: _H, z: np.ndarray, rough: Refit[_H] | None = None) -> Refit[_H] | None:
-    """The optimum next to that in wide valleys, which may be known: partners may change on the way."""
-    rough = rough or widened(hypothesis, z)
-    return None if rough is None else refitted(replace(hypothesis, held=None), rough.z)
+    """The optimum next to that in wide valleys, which may be known: partners may change on the way.
+
+    Valleys narrow by degrees: from a wide one straight into the narrowest, a side valley is the nearest.
+    """
+    found = rough or widened(hypothesis, z)
+    if found is None:
+        return None
+    for discrepancy in NARROWING:
+        wide = replace(found.hypothesis, held=None, discrepancy=discrepancy)
+        found = refitted(wide, found.z) or found
+    return refitted(replace(hypothesis, held=None), found.z)
 
 
 def effect_evidence(explanations: Sequence[Explanation]) -> dict[tuple[str, ...], float]:

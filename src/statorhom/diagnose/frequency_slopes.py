@@ -247,7 +247,7 @@ def _supported_slope(
     whole = sum(shares.values())
     if whole == 0.0:
         return None
-    free = stage.slopes(stage.reference, list(shares))
+    free = stage.reference_slopes(shares)
     rest = sum(share * (slopes[k] - free[k] @ change) for k, share in shares.items())
     return np.asarray((reference.slopes[partner] @ change + rest) / whole)
 

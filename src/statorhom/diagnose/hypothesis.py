@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import cast
 
 import numpy as np
@@ -28,6 +28,7 @@ from statorhom.diagnose.features import (
     missed_cost,
     shift_features,
 )
+from statorhom.diagnose.followed_modes import Names, names_of
 from statorhom.diagnose.levels import (
     common_keys,
     force_levels,
@@ -66,10 +67,12 @@ class Hypothesis(AnyHypothesis):
     ----------
     study : the model.
     held : test → partners of its modes; None to pair anew.
+    names : test → names of the predicted modes by their places, held with the partners.
     """
 
     study: StudyModel
     held: Mapping[str, Keys | Partners] | None = None
+    names: Mapping[str, Names] = field(default_factory=dict)
 
     def mark(self, z: FloatArray) -> tuple[tuple[str, tuple[float, ...]], ...]:
         """What the actions depend on."""
@@ -88,10 +91,12 @@ class Hypothesis(AnyHypothesis):
         """
         values, actions = self.study.constants.values(z[: self.constants]), self.actions(z)
         held: dict[str, Keys | Partners] = {}
+        names: dict[str, Names] = {}
         missed = 0.0
         for stage in self.study.stages:
             for test in stage.tests:
                 found = self._predicted(stage, test, values, actions, self.mark(z))
+                names[test.name] = names_of({key: one.mode for key, one in found.items()})
                 if test.support != FREE:
                     reference = supported_test(
                         self.study.files, stage, test, actions, self.mark(z), shapes=True
@@ -102,7 +107,7 @@ class Hypothesis(AnyHypothesis):
                     keys = assigned(test, self.modes(test, actions), found)
                     held[test.name] = keys
                     missed += missed_cost(test, keys, found)
-        return replace(self, held=held, missed=missed)
+        return replace(self, held=held, names=names, missed=missed)
 
     @staticmethod
     def modes(test: MeasuredTest, actions: Sequence[Action]) -> tuple[MeasuredMode, ...]:
@@ -146,7 +151,7 @@ class Hypothesis(AnyHypothesis):
     ) -> dict[ModeKey, PredictedMode]:
         """Predicted modes that the features of a test need, with their damping."""
         assert self.held is not None
-        modes = self._predicted(stage, test, values, actions, self.mark(z))
+        modes = self._predicted(stage, test, values, actions, self.mark(z), self.names[test.name])
         if test.support == FREE:
             # only what has a measured partner matters
             held = set(cast(Keys, self.held[test.name]))
@@ -185,11 +190,12 @@ class Hypothesis(AnyHypothesis):
         values: Mapping[str, float],
         actions: Sequence[Action],
         mark: Sequence[Hashable],
+        names: Names | None = None,
     ) -> dict[ModeKey, PredictedMode]:
         """Named free modes; of a supported test those that it is made of, without what is attached."""
         if test.support != FREE:
             actions = [without_attachments(a) for a in actions]
-        return predicted(self.study, stage, values, actions, test.name, mark)
+        return predicted(self.study, stage, values, actions, test.name, mark, names)
 
     def _supported(
         self,

@@ -9,11 +9,12 @@ import numpy as np
 
 from statorhom.diagnose.broken_response import Response, responses
 from statorhom.diagnose.dimension_response import dimension_shift
+from statorhom.diagnose.followed_modes import Names, named
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.identify.stage_problem import NamedByMode, seen
 from statorhom.model.affine import Materials, hooke_coefficients
-from statorhom.model.convergence import ModeKey, mode_keys
+from statorhom.model.convergence import ModeKey
 from statorhom.model.stator_mode import StatorMode
 from statorhom.physics.action import Action
 from statorhom.physics.rated import at_rate, self_consistent
@@ -104,7 +105,7 @@ def slopes_by_materials(
     stage: StageModel, materials: Materials, modes: Mapping[ModeKey, PredictedMode]
 ) -> dict[ModeKey, np.ndarray]:
     """d ln f of predicted modes by the entries of `material_vector`."""
-    bonded = [key for key, mode in modes.items() if mode.slope is None]
+    bonded = {key: mode.mode.place for key, mode in modes.items() if mode.slope is None}
     own = {key: mode.slope for key, mode in modes.items() if mode.slope is not None}
     return {**stage.slopes(materials, bonded), **own}
 
@@ -116,15 +117,22 @@ def predicted(
     actions: Sequence[Action],
     test: str | None = None,
     mark: Sequence[Hashable] | None = None,
+    names: Names | None = None,
 ) -> dict[ModeKey, PredictedMode]:
-    """Named modes of a free test, by key; `mark` has one entry per action: equal ones say that it is the same."""
+    """Named modes of a free test, by key.
+
+    Parameters
+    ----------
+    mark : one entry per action; equal ones say that it is the same.
+    names : that the modes had where they were paired (`statorhom.diagnose.followed_modes`); their own by default.
+    """
     materials = acted_materials(study, stage, values, actions, test)
     here = [a for a in actions if a.touches(stage.name, test)]
     if mark is not None:
         # what breaks no symmetry may differ
         pairs = zip(actions, mark, strict=True)
         mark = tuple(m for a, m in pairs if a.changes and a.touches(stage.name, test))
-    base = _base(stage, materials, here)
+    base = _base(stage, materials, here, names)
     shifts = broken_responses(stage, here, None if mark is None else (test, mark))
     mesh = values[f"{stage.name}:mesh"]
     found = {}
@@ -172,21 +180,30 @@ class _Symmetric:
     slope: np.ndarray | None = None
 
 
-def _base(stage: StageModel, materials: Materials, actions: Sequence[Action]) -> dict[ModeKey, _Symmetric]:
+def _base(
+    stage: StageModel, materials: Materials, actions: Sequence[Action], names: Names | None
+) -> dict[ModeKey, _Symmetric]:
     for action in actions:
         if action.joint is not None:
             basis = stage.joined(action.joint.regions, with_arcs=action.joint.arc is not None)
             modes = basis.solve(materials, action.joint)
+            if names is not None:
+                joined = {m.mode.place: m for m in modes.values()}
+                followed = named([m.mode for m in modes.values()], names)
+                modes = {key: joined[mode.place] for key, mode in followed.items()}
             return {key: _Symmetric(m.mode, m.log_f, m.split, m.slope) for key, m in modes.items()}
     for action in actions:
         if action.modulus_at:
-            return _rated(stage, materials, action)
-    found = mode_keys(stage.solve(materials).modes)
+            return _rated(stage, materials, action, names)
+    found = named(stage.solve(materials).modes, names)
     return {key: _Symmetric(mode, float(np.log(mode.frequency_hz))) for key, mode in found.items()}
 
 
-def _rated(stage: StageModel, materials: Materials, action: Action) -> dict[ModeKey, _Symmetric]:
+def _rated(
+    stage: StageModel, materials: Materials, action: Action, names: Names | None
+) -> dict[ModeKey, _Symmetric]:
     """Modes of a stator whose moduli follow the frequency: f with f = f(moduli at f), interpolated in ln f."""
-    tables = [mode_keys(stage.solve(at_rate(materials, action.modulus_at, rate)).modes) for rate in RATE_HZ]
+    several = [at_rate(materials, action.modulus_at, rate) for rate in RATE_HZ]
+    tables = [named(stage.solve(each).modes, names) for each in several]
     logs = self_consistent(np.log(RATE_HZ), tables)
     return {key: _Symmetric(tables[1][key], log_f) for key, log_f in logs.items()}

@@ -17,6 +17,7 @@ from statorhom.diagnose.prediction import acted_materials
 from statorhom.diagnose.stage_model import mesh_error, with_reference
 
 MOST = 3  # explanations that get models of their own before a second effect is sought
+WORSE = 10.0  # of the objective, by which a model of its own is worse than the common one
 BEHIND = 150.0  # log evidence by which others are too far behind for that
 
 
@@ -33,7 +34,12 @@ def sharpened(explanation: Explanation) -> Explanation:
         stages.append(replace(near, error=error))
     moved = replace(hypothesis, study=hypothesis.study.with_stages(tuple(stages)), held=None)
     again = refitted(moved, r.z)
-    return explanation if again is None else replace(explanation, refit=again)
+    if again is None or again.objective > r.objective + WORSE:
+        # other mesh factors may have put the constants onto a slope of another valley
+        wide = through_wide_valleys(moved, r.z)
+        # and where two modes come near each other, a mesh factor may be that of the other one
+        again = min((x for x in (again, wide, r) if x is not None), key=lambda x: x.objective)
+    return replace(explanation, refit=again)
 
 
 def refined(

@@ -26,6 +26,7 @@ from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.mislabelled import worth_trying
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.scan import Scan, Signature
+from statorhom.diagnose.searched_starts import searched_starts
 from statorhom.physics.candidate import Candidate
 
 STARTS = 2  # of one candidate
@@ -117,7 +118,8 @@ def _in_order(base: Refit, found: Scan) -> Iterator[tuple[float, list[_Start]]]:
         return
     if _price(trials[0]) < DEAR:
         # the scan's favourite needs no rival to be tried
-        yield trials.pop(0)
+        gain, starts = trials.pop(0)
+        yield gain, [*(_searched(starts[0]) if _price((gain, starts)) == CHEAP else ()), *starts]
     # gross errors are held down: what a cheap effect would gain is better tried than read from its signature
     others = [
         (s.gain, _starts_of(base, found, s)) for s in found.of_every_candidate() if s not in (first, *rest)
@@ -141,6 +143,12 @@ def _starts_of(base: Refit, found: Scan, signature: Signature) -> list[_Start]:
 def _start(base: Refit, candidate: Candidate, start: np.ndarray) -> _Start:
     hypothesis = blank(base.hypothesis, (candidate,))
     return _Start(hypothesis, np.r_[base.z, start])
+
+
+def _searched(start: _Start) -> list[_Start]:
+    """Starts at the best optima that are found all over the prior, in wide valleys."""
+    found = searched_starts(start.hypothesis, start.z)[:STARTS]
+    return [replace(start, z=rough.z, rough=rough) for rough in found]
 
 
 def _with_rough(start: _Start) -> _Start:
@@ -171,6 +179,8 @@ def _best_refit(starts: Sequence[_Start], worth: float, *, far: bool) -> Refit |
     """
     found: list[Refit] = []
     for start in starts:
+        if found and explained(found[-1], {}).adequacy > ADEQUATE:
+            break
         if np.isfinite(worth):
             found += _kept(_rival(start, worth))
             continue

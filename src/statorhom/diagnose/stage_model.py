@@ -57,7 +57,7 @@ class StageModel:
     density: MeshDensity
     _last: dict[bytes, RingModes] = field(default_factory=dict, repr=False)
     kept_responses: dict[Hashable, Any] = field(default_factory=dict, repr=False)
-    _slopes: dict[int, dict[ModeKey, np.ndarray]] = field(default_factory=dict, repr=False)
+    _slopes: dict[int, dict[tuple[int, int], np.ndarray]] = field(default_factory=dict, repr=False)
     _joints: dict[tuple[tuple[str, ...], bool], JointBasis] = field(default_factory=dict, repr=False)
     _trained: dict[tuple[str, ...], TrainedBasis] = field(default_factory=dict, repr=False)
     held_shapes: dict[str, HeldShapes] = field(default_factory=dict, repr=False)
@@ -154,16 +154,27 @@ class StageModel:
             found[key] = (profile.planes, np.hstack([problem.profile @ vector, axial]))
         return found
 
-    def slopes(self, materials: Materials, keys: Iterable[ModeKey]) -> dict[ModeKey, np.ndarray]:
-        """d ln f by the Hooke entries and the density of all regions, one after the other."""
+    def slopes(
+        self, materials: Materials, places: Mapping[ModeKey, tuple[int, int]]
+    ) -> dict[ModeKey, np.ndarray]:
+        """d ln f by the Hooke entries and the density of all regions, one after the other.
+
+        Parameters
+        ----------
+        places : of the modes (`StatorMode.place`).
+        """
         solved = self.solve(materials)
         known = self._slopes.setdefault(id(solved), {})
-        modes = mode_keys(solved.modes)
-        for key in keys:
-            if key not in known and key in modes:
-                gradient = solved.log_frequency_gradient(modes[key])
-                known[key] = np.concatenate([np.r_[gradient[r][0], gradient[r][1]] for r in materials])
-        return {key: known[key] for key in keys if key in known}
+        missing = set(places.values()) - set(known)
+        for mode in solved.modes if missing else ():
+            if mode.place in missing:
+                gradient = solved.log_frequency_gradient(mode)
+                known[mode.place] = np.concatenate([np.r_[gradient[r][0], gradient[r][1]] for r in materials])
+        return {key: known[place] for key, place in places.items() if place in known}
+
+    def reference_slopes(self, keys: Iterable[ModeKey]) -> dict[ModeKey, np.ndarray]:
+        """Slopes of the reference's modes at the reference."""
+        return self.slopes(self.reference, {key: self.reference_keys[key].place for key in keys})
 
 
 def stage_model(

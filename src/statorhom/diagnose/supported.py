@@ -231,7 +231,7 @@ def predicted_logs(
     change = material_change(stage.reference, materials)
     total = reference.log_f + reference.slopes @ change
     used = [key for key in reference.shares if key in modes]
-    free = stage.slopes(stage.reference, used)
+    free = stage.reference_slopes(used)
     for key in used:
         # what of the free mode's shift the slopes do not say
         shift = modes[key].log_f - np.log(stage.reference_keys[key].frequency_hz)

@@ -56,12 +56,13 @@ def optima(blank: _H, trials: Sequence[np.ndarray]) -> list[Refit[_H]]:
     return _different(found)
 
 
-def wide_optima(blank: _H, trials: Sequence[np.ndarray]) -> list[Refit[_H]]:
+def wide_optima(blank: _H, trials: Sequence[np.ndarray], starts: int = STARTS) -> list[Refit[_H]]:
     """Different optima in wide valleys, the best first; for those who do not know yet what the mesh is wrong by.
 
     Parameters
     ----------
     blank, trials : as for `optima`.
+    starts : number of points that are refitted at most.
 
     Raises
     ------
@@ -77,7 +78,7 @@ def wide_optima(blank: _H, trials: Sequence[np.ndarray]) -> list[Refit[_H]]:
             continue
     scored.sort(key=lambda pair: pair[0])
     found: list[Refit[_H]] = []
-    for z in _apart([z for _, z in scored]):
+    for z in _apart([z for _, z in scored], starts):
         # what promises nothing beside the best so far is not followed
         worth = min((r.objective for r in found), default=np.inf) + BEHIND
         found += [r] if (r := refitted(coarse, z, worth)) is not None else []
@@ -94,10 +95,10 @@ def _different(found: Sequence[Refit[_H]]) -> list[Refit[_H]]:
     return chosen
 
 
-def _apart(points: Sequence[np.ndarray]) -> list[np.ndarray]:
+def _apart(points: Sequence[np.ndarray], most: int) -> list[np.ndarray]:
     """The first points that are no neighbours of better ones."""
     chosen: list[np.ndarray] = []
     for z in points:
-        if len(chosen) < STARTS and all(np.linalg.norm(z - other) > APART for other in chosen):
+        if len(chosen) < most and all(np.linalg.norm(z - other) > APART for other in chosen):
             chosen.append(z)
     return chosen

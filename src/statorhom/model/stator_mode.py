@@ -41,6 +41,11 @@ class StatorMode:
     parities: int | None = None
 
     @property
+    def place(self) -> tuple[int, int]:
+        """Problem and column: modes of one problem avoid crossings, so that a place is followed continuously."""
+        return self.problem, self.column
+
+    @property
     def family(self) -> tuple[int, int] | None:
         """Modes of one family never mix with others: (r, n) of a stator, (parities, 0) of a body with mirror planes.
 

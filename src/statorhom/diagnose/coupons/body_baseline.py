@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.diagnose.baseline import SAME_HZ, SNAPSHOTS, new_constants
-from statorhom.diagnose.constants import Constants, study_constants
+from statorhom.diagnose.baseline import SAME_HZ, SNAPSHOTS
+from statorhom.diagnose.constants import Constants, new_constants, study_constants
 from statorhom.diagnose.coupons.body_hypothesis import BodyHypothesis
 from statorhom.diagnose.coupons.body_stage import body_stage, with_reference
 from statorhom.diagnose.coupons.body_study import BodyStudy

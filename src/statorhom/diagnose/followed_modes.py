@@ -1,0 +1,47 @@
+"""Modes followed from where they were paired: what is predicted of them changes continuously with the constants.
+
+A mode's own name changes at a point: its rank when another mode of its family becomes visible, its node planes when
+their number is doubtful. Its place in its harmonic problem does not, for modes of one problem avoid to cross. But where
+two of them come near each other they exchange their shapes; then the name is what stays.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from statorhom.model.convergence import ModeKey, mode_keys
+from statorhom.model.stator_mode import StatorMode
+
+Names = Mapping[tuple[int, int], ModeKey]  # of modes by `StatorMode.place`
+
+
+def names_of(modes: Mapping[ModeKey, StatorMode]) -> Names:
+    """The names that modes have, by their places."""
+    return {mode.place: key for key, mode in modes.items()}
+
+
+def named(modes: Iterable[StatorMode], names: Names | None) -> dict[ModeKey, StatorMode]:
+    """Modes by name.
+
+    Parameters
+    ----------
+    modes : sorted by frequency.
+    names : where the modes were paired; None for the modes' own names.
+    """
+    if names is None:
+        return mode_keys(modes)
+    here = {mode.place: mode for mode in modes}
+    found = {
+        key: here[place]
+        for place, key in names.items()
+        if place in here and here[place].family in (key[:2], None)
+    }
+    free = {place: mode for place, mode in here.items() if place not in {m.place for m in found.values()}}
+    for place, key in names.items():
+        if key in found:
+            continue
+        same = [p for p, mode in free.items() if p[0] == place[0] and mode.family == key[:2]]
+        nearest = min(same, key=lambda p: abs(p[1] - place[1]), default=place)
+        if nearest in free:
+            found[key] = free.pop(nearest)
+    return found

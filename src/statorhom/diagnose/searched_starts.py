@@ -1,0 +1,39 @@
+"""Starts of an effect's refit all over the prior of its step: far from any optimum the declared model is no guide."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from statorhom.diagnose.constants import new_constants
+from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.valleys import trials_around, wide_optima
+from statorhom.errors import IdentificationError
+
+REFITTED = 6  # points that are followed in wide valleys
+
+
+def searched_starts(hypothesis: Hypothesis, z: np.ndarray, seed: int = 0) -> list[Refit[Hypothesis]]:
+    """Different optima in wide valleys, the best first; none where the effect's step has no constants to be found.
+
+    Parameters
+    ----------
+    hypothesis : with one effect.
+    z : all coordinates; the constants of other steps stay there until an optimum is sought.
+    seed : of the points.
+    """
+    [candidate] = hypothesis.candidates
+    constants = hypothesis.study.constants
+    own = [s.setup for s in hypothesis.study.stages if s.setup.keys.name == candidate.stage]
+    places = [place for setup in own for place in new_constants(constants, setup)]
+    if not places:
+        return []
+    low, high = hypothesis.limits()
+    points = trials_around(z, [*places, *range(len(constants), len(z))], seed)
+    try:
+        quick = replace(hypothesis, trained=False)
+        return wide_optima(quick, [np.clip(point, low, high) for point in points], REFITTED)
+    except IdentificationError:
+        return []
