@@ -134,7 +134,7 @@ def test_changed_materials(
         ends.append(rule(stage.reference))
     regions = tuple(stage.reference)
     change = material_vector(ends[1], regions) - material_vector(ends[0], regions)
-    slopes = stage.slopes(stage.reference, KEYS)
+    slopes = stage.reference_slopes(KEYS)
     full = [mode_keys(solve_free(stage.model, m, TOP, range(4)).modes) for m in ends]
     for key in KEYS:
         exact = np.log(full[1][key].frequency_hz / full[0][key].frequency_hz)
@@ -307,7 +307,7 @@ def log_of_changed(study: StudyModel, stage: StageModel, name: str, step: float)
 
 
 def test_another_mass_is_another_density(stack: StageModel) -> None:
-    slopes = stack.slopes(stack.reference, KEYS)
+    slopes = stack.reference_slopes(KEYS)
     one = stack.reference["lamination"]
     change = material_vector({"lamination": Material(one.hooke, 1.01 * one.density)}, ["lamination"])
     change = change - material_vector(stack.reference, ["lamination"])
