@@ -18,6 +18,7 @@ from statorhom.model.broken.basis import ProblemBasis
 from statorhom.model.broken.solve import BrokenModes
 from statorhom.model.radial_profile import radial_profile
 
+ROUNDING = 1e-13  # of a norm
 LEAST = 1e-3  # part of the energy of a mode below which a direction is left out
 
 
@@ -92,11 +93,26 @@ def _directions(
     trace = problem.vectors[sector.loaded]
     inner = np.diag(problem.values + sector.shift)
     norm = np.block([[inner, trace.T], [trace, sector.flexibility]])
-    image = norm @ snapshots
-    gram = snapshots.T @ image
-    values, rotation = np.linalg.eigh((gram + gram.T) / 2)
-    rotation = rotation[:, values > LEAST] / np.sqrt(values[values > LEAST])
-    chosen = snapshots @ rotation
+    chosen = _principal(norm, snapshots)
     count = problem.vectors.shape[1]
     vectors = problem.vectors @ chosen[:count] + sector.responses @ chosen[count:]
-    return vectors, image @ rotation
+    return vectors, norm @ chosen
+
+
+def _principal(norm: np.ndarray, snapshots: np.ndarray) -> np.ndarray:
+    """Orthonormal coordinates (n, k) of what some snapshots (n, m) have in common, in a norm (n, n)."""
+    if snapshots.shape[1] <= len(norm):
+        values, rotation = _largest(snapshots.T @ norm @ snapshots)
+        return np.asarray(snapshots @ rotation / np.sqrt(values))
+    # a winding has more modes in the band than the basis has vectors
+    sizes, axes = np.linalg.eigh((norm + norm.T) / 2)
+    sizes, axes = sizes[sizes > ROUNDING * sizes[-1]], axes[:, sizes > ROUNDING * sizes[-1]]
+    seen = np.sqrt(sizes)[:, None] * (axes.T @ snapshots)
+    _, rotation = _largest(seen @ seen.T)
+    return np.asarray(axes @ (rotation / np.sqrt(sizes)[:, None]))
+
+
+def _largest(gram: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Eigenvalues and vectors above `LEAST`."""
+    values, rotation = np.linalg.eigh((gram + gram.T) / 2)
+    return values[values > LEAST], rotation[:, values > LEAST]
