@@ -36,10 +36,12 @@ def named(modes: Iterable[StatorMode], names: Names | None) -> dict[ModeKey, Sta
         for place, key in names.items()
         if place in here and here[place].family in (key[:2], None)
     }
-    free = {place: mode for place, mode in here.items() if place not in {m.place for m in found.values()}}
-    for place, key in names.items():
-        if key in found:
-            continue
+    missing = [(place, key) for place, key in names.items() if key not in found]
+    if not missing:
+        return found
+    taken = {mode.place for mode in found.values()}
+    free = {place: mode for place, mode in here.items() if place not in taken}
+    for place, key in missing:
         same = [p for p, mode in free.items() if p[0] == place[0] and mode.family == key[:2]]
         nearest = min(same, key=lambda p: abs(p[1] - place[1]), default=place)
         if nearest in free:

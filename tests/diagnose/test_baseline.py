@@ -1,0 +1,63 @@
+"""Which valley the declared model is taken from."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from statorhom.diagnose import baseline
+
+
+def valley(name: str, wide: float, adequacy: float, own_wide: float) -> SimpleNamespace:
+    hypothesis = SimpleNamespace(study=name)
+    return SimpleNamespace(
+        objective=wide, adequacy=adequacy, own_wide=own_wide, z=np.array([wide]), hypothesis=hypothesis
+    )
+
+
+def chosen(monkeypatch: pytest.MonkeyPatch, *valleys: SimpleNamespace) -> tuple[Any, list[str], int]:
+    settled: list[str] = []
+
+    def settle(_study: Any, one: SimpleNamespace, _settings: Any) -> SimpleNamespace:
+        settled.append(one.hypothesis.study)
+        return one
+
+    study = SimpleNamespace(constants=(), stages=(), with_stages=lambda _: None)
+    for name, fake in {
+        "new_constants": lambda *_: [],
+        "trials_around": lambda *_: [],
+        "_materials": lambda *_: [],
+        "stage_model": lambda *_: None,
+        "Hypothesis": lambda study: study,
+        "wide_optima": lambda *_: list(valleys),
+        "_settled": settle,
+        "nothing": lambda found: found,
+        "_wide_objective": lambda found: found.own_wide,
+    }.items():
+        monkeypatch.setattr(baseline, name, fake)
+    settings = SimpleNamespace(seed=0, density=None)
+    found, _, others = baseline._with_step(study, np.zeros(0), None, (), settings)  # type: ignore[arg-type]
+    return found, settled, len(others)
+
+
+def test_the_first_that_leaves_nothing_to_explain_is_enough(monkeypatch: pytest.MonkeyPatch) -> None:
+    first, second = valley("a", 10.0, 0.5, 10.0), valley("b", 11.0, 0.9, 5.0)
+    assert chosen(monkeypatch, first, second) == ("a", ["a"], 1)
+
+
+def test_one_that_fits_beats_a_wider_one_that_does_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    first, second = valley("a", 10.0, 1e-9, 1.0), valley("b", 11.0, 0.9, 5.0)
+    assert chosen(monkeypatch, first, second) == ("b", ["a", "b"], 1)
+
+
+def test_where_none_fits_wide_valleys_tell(monkeypatch: pytest.MonkeyPatch) -> None:
+    first, second = valley("a", 10.0, 1e-9, 9.0), valley("b", 11.0, 1e-3, 12.0)
+    assert chosen(monkeypatch, first, second) == ("a", ["a", "b"], 1)
+
+
+def test_what_is_far_behind_is_not_followed(monkeypatch: pytest.MonkeyPatch) -> None:
+    first, second = valley("a", 10.0, 1e-9, 9.0), valley("b", 60.0, 0.9, 1.0)
+    assert chosen(monkeypatch, first, second) == ("a", ["a"], 1)
