@@ -226,7 +226,7 @@ def _plot_strengths(axes: Axes, single: Sequence[Mapping[str, Any]]) -> None:
     axes.set_xticks(range(len(places)), labels, fontsize="small")
     axes.set(xlabel="projected signal-to-noise", ylabel="share of single effects", ylim=(-0.03, 1.03))
     axes.set_title("Single effects (95 % intervals; dotted: targets from 4 on)", fontsize="medium")
-    axes.legend(loc="lower right", fontsize="small")
+    axes.legend(fontsize="small", loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2)
 
 
 def _plot_verdicts(axes: Axes, rows: Sequence[Mapping[str, Any]]) -> None:
