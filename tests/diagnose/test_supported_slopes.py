@@ -11,9 +11,10 @@ from statorhom.diagnose.supported_slopes import _principal
 @pytest.mark.parametrize("count", [7, 19, 20, 21, 60])
 def test_directions_are_orthonormal_and_hold_the_snapshots(count: int) -> None:
     rng = np.random.default_rng(count)
-    root = rng.standard_normal((20, 20))
+    unit = np.r_[np.full(12, 1e6), np.full(8, 1e-6)]  # as far apart as those of motion and loads
+    root = unit[:, None] * rng.standard_normal((20, 20))
     norm = root @ root.T
-    snapshots = rng.standard_normal((20, count))
+    snapshots = rng.standard_normal((20, count)) / unit[:, None]
     chosen = _principal(norm, snapshots)
     assert chosen.shape[1] == min(20, count)
     np.testing.assert_allclose(chosen.T @ norm @ chosen, np.eye(chosen.shape[1]), atol=1e-9)

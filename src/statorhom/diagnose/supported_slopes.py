@@ -105,11 +105,14 @@ def _principal(norm: np.ndarray, snapshots: np.ndarray) -> np.ndarray:
         values, rotation = _largest(snapshots.T @ norm @ snapshots)
         return np.asarray(snapshots @ rotation / np.sqrt(values))
     # a winding has more modes in the band than the basis has vectors
+    # coordinates and loads have other units: without them every direction is seen
+    unit = 1.0 / np.sqrt(np.diag(norm))
+    norm, snapshots = unit[:, None] * norm * unit, snapshots / unit[:, None]
     sizes, axes = np.linalg.eigh((norm + norm.T) / 2)
     sizes, axes = sizes[sizes > ROUNDING * sizes[-1]], axes[:, sizes > ROUNDING * sizes[-1]]
     seen = np.sqrt(sizes)[:, None] * (axes.T @ snapshots)
     _, rotation = _largest(seen @ seen.T)
-    return np.asarray(axes @ (rotation / np.sqrt(sizes)[:, None]))
+    return np.asarray(unit[:, None] * (axes @ (rotation / np.sqrt(sizes)[:, None])))
 
 
 def _largest(gram: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
