@@ -109,14 +109,14 @@ def _with_step(
     # constants of earlier steps stay while new ones are sought
     wide = wide_optima(Hypothesis(study), trials)[:FOLLOWED]
     found: list[Refit[Hypothesis]] = []
-    for one in wide:
-        if one.objective > wide[0].objective + ALIKE:
-            break
+    for one in (w for w in wide if w.objective <= wide[0].objective + ALIKE):
         # what a coarse mesh is wrong by differs from valley to valley: none is the best before that is known
         found.append(_settled(study, one, settings))
         if nothing(found[-1]).adequacy > CONVINCING:
+            best = found[-1]
             break
-    best = found[-1] if nothing(found[-1]).adequacy > CONVINCING else min(found, key=_wide_objective)
+    else:
+        best = min(found, key=_wide_objective)
     others = (*(r.z for r in found if r is not best), *(r.z for r in wide[len(found) :]))
     return best.hypothesis.study, best.z, others
 

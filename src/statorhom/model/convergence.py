@@ -98,7 +98,11 @@ def _continued(
         if key not in partners and (*key[:2], i) not in taken:
             partners[key] = i
             taken.add((*key[:2], i))
-    return {key: [*series[key], finer[key[:2]][i]] for key, i in partners.items()}
+    return {
+        key: [*frequencies, finer[key[:2]][partners[key]]]
+        for key, frequencies in series.items()
+        if key in partners
+    }
 
 
 def _mode(
