@@ -22,8 +22,10 @@ from statorhom.mesh.extrude import mesh_step
 from statorhom.model.affine import AffineModel, Materials, assemble
 from statorhom.model.broken.basis import SymmetricBasis, symmetric_basis
 from statorhom.model.broken.named_response import Columns
+from statorhom.model.broken.visible import visible
 from statorhom.model.convergence import ModeKey, converge, mode_keys
 from statorhom.model.free_modes import FreeModes, problem_at
+from statorhom.model.harmonic import Harmonic
 from statorhom.model.pitch_parts import pitch_parts
 from statorhom.model.radial_profile import radial_profile
 from statorhom.model.stator_mode import StatorMode
@@ -98,7 +100,14 @@ class StageModel:
     def broken(self) -> SymmetricBasis:
         """Modes of all harmonics at the reference, for what breaks the symmetry."""
         top = self.ring.highest_hz
-        return symmetric_basis(self.model, self.reference, top, margin=BROKEN_MARGIN, certified=False)
+        found = symmetric_basis(self.model, self.reference, top, margin=BROKEN_MARGIN, certified=False)
+        return visible(found, self._named.values())
+
+    @property
+    def _named(self) -> dict[ModeKey, tuple[Harmonic, float]]:
+        """Problems and frequencies (Hz) of the named modes at the reference."""
+        modes = self.reference_keys.items()
+        return {key: (self.ring.problems[m.problem].space, m.frequency_hz) for key, m in modes}
 
     def joined(self, regions: tuple[str, ...], *, with_arcs: bool) -> JointBasis:
         """Modes with a contact around some regions."""
@@ -128,10 +137,7 @@ class StageModel:
         """The broken basis with what some changes need."""
         mark = tuple(sorted(t.key for t in trainings))
         if mark not in self._trained:
-            named = {
-                key: (self.ring.problems[m.problem].space, m.frequency_hz)
-                for key, m in self.reference_keys.items()
-            }
+            named = self._named
             found = trained_basis(self.broken, named)
             for one in sorted(trainings, key=lambda t: t.key):
                 found = found.trained(one.examples(self.model.mesh, self.reference), named)

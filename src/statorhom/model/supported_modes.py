@@ -33,6 +33,7 @@ from statorhom.model.point_response import (
     point_response,
     static_shift,
 )
+from statorhom.model.ritz import lowest_pairs
 from statorhom.model.stator_mode import RIGID_HZ
 from statorhom.model.supported_shapes import ShapePart, SupportedModes
 from statorhom.model.supports import Support
@@ -189,7 +190,7 @@ def _eigenpairs(A: np.ndarray, mass: np.ndarray, top: float) -> tuple[np.ndarray
     keep = weights > DEPENDENT * weights[-1]
     basis = directions[:, keep] / np.sqrt(weights[keep])
     reduced = basis.T @ A @ basis
-    values, vectors = eigh((reduced + reduced.T) / 2, subset_by_value=(-np.inf, top), driver="evr")
+    values, vectors = lowest_pairs((reduced + reduced.T) / 2, np.eye(len(reduced)), top)
     return values, basis @ vectors
 
 

@@ -79,11 +79,28 @@ def name_shape(
     IdentificationError
         When the arrays do not fit, fewer than three angles remain, or nothing moves.
     """
+    kind, visibility = motion_kind(radial, tangential, axial_motion, winding_share)
+    if kind != "radial":
+        return ModeName(None, None, kind, 1.0 - visibility, visibility)
+    return _radial_name(order_spectrum(radial, angles_rad), np.atleast_1d(z_m), visibility)
+
+
+def motion_kind(
+    radial: npt.ArrayLike,
+    tangential: npt.ArrayLike | None,
+    axial_motion: npt.ArrayLike | None,
+    winding_share: float = 0.0,
+) -> tuple[str, float]:
+    """Kind of a shape ("radial", "torsion", "axial" or "winding"), and the radial part of its mean square.
+
+    Raises
+    ------
+    IdentificationError
+        When nothing moves.
+    """
     parts = _mean_squares([radial, tangential, axial_motion])
     visibility = float(parts[0] / parts.sum()) * (1.0 - winding_share)
-    if visibility < SIGNIFICANT_RADIAL_SHARE:
-        return ModeName(None, None, _kind(parts, winding_share), 1.0 - visibility, visibility)
-    return _radial_name(order_spectrum(radial, angles_rad), np.atleast_1d(z_m), visibility)
+    return ("radial" if visibility >= SIGNIFICANT_RADIAL_SHARE else _kind(parts, winding_share)), visibility
 
 
 def _mean_squares(components: Sequence[npt.ArrayLike | None]) -> npt.NDArray[np.float64]:

@@ -105,8 +105,10 @@ def _shape(fit: OrderFit, columns: FloatArray) -> ComplexArray:
 
 def _gains(values: ComplexArray, columns: FloatArray, present: BoolArray) -> FloatArray:
     """Sum of squares that each order alone explains over all planes, shape (orders,)."""
-    gram = np.einsum("pj,rjk,rjl->prkl", present.astype(float), columns, columns)
-    inverse = np.linalg.pinv(gram, rcond=_LARGEST_CONDITION**-2, hermitian=True)
+    # planes of the same points share their Gram matrices
+    masks, plane = np.unique(present, axis=0, return_inverse=True)
+    gram = np.einsum("mj,rjk,rjl->mrkl", masks.astype(float), columns, columns)
+    inverse = np.linalg.pinv(gram, rcond=_LARGEST_CONDITION**-2, hermitian=True)[plane]
     projected = np.einsum("rjk,pj->prk", columns, values)
     return np.einsum("prk,prkl,prl->r", projected.conj(), inverse, projected).real
 

@@ -11,7 +11,7 @@ from statorhom.model.free_modes import total_mass
 from statorhom.model.stator_mode import VISIBLE
 from statorhom.model.supported_shapes import SurfaceModes
 from statorhom.model.surface_grid import SamplingGrid, sampling_grid
-from statorhom.modes.naming import name_shape
+from statorhom.modes.naming import motion_kind, name_shape
 
 
 @dataclass(frozen=True)
@@ -67,8 +67,8 @@ def _named(
 ) -> SupportedMode:
     """Name of the motion (planes, angles, 3) of one mode."""
     radial, tangential, axial = np.moveaxis(motion, -1, 0)
-    name = name_shape(radial, grid.angles, grid.planes, tangential=tangential, axial_motion=axial)
-    if name.kind == "radial" and visibility <= VISIBLE:
+    if visibility <= VISIBLE and motion_kind(radial, tangential, axial)[0] == "radial":
         # as of the free stator: what the core's back does not show happens inside
         return SupportedMode(frequency_hz, None, None, "winding", visibility, 1, 1.0, column)
+    name = name_shape(radial, grid.angles, grid.planes, tangential=tangential, axial_motion=axial)
     return SupportedMode(frequency_hz, name.order, name.axial, name.kind, visibility, 1, name.share, column)

@@ -63,8 +63,12 @@ class ProblemBasis:
 
     def lowest(self, count: int) -> ProblemBasis:
         """The first vectors only."""
+        return self.chosen(slice(count))
+
+    def chosen(self, which: slice | np.ndarray) -> ProblemBasis:
+        """Some of the vectors, by a slice or by a mask."""
         arrays = {
-            name: getattr(self, name)[..., :count] for name in ("values", "vectors", "elastic", "inertial")
+            name: getattr(self, name)[..., which] for name in ("values", "vectors", "elastic", "inertial")
         }
         return replace(self, **arrays)
 
