@@ -22,7 +22,7 @@ from statorhom.study.modal_table import MeasuredMode
 # of frequencies: floor, part of the mesh's correction, and what its square adds where the mesh is too coarse for that
 OWN, OWN_PART, OWN_SQUARE = 5e-4, 0.05, 3.0
 SCATTER_SD = (
-    1.2e-3  # of either part of a doublet's relative split: sheets, punching and welding vary that much
+    1.2e-3  # of either part of a stiffness wave 2r in the core: sheets, punching and welding vary that much
 )
 SPLIT_OWN = 3e-4  # what the modes of one order differ by in it
 SPLIT_PART = 0.05  # of a split: shape and foot of what causes it are not known
@@ -138,7 +138,7 @@ def free_features(
     test, modes : the measurement, names corrected.
     keys : partner of every mode.
     predicted : modes by key.
-    scatter : order → relative split by manufacturing scatter.
+    scatter : order → relative amplitude of what manufacturing scatter splits it by.
     error : mesh uncertainty.
     discrepancy : relative standard deviation that is added to all frequencies.
     """
@@ -197,7 +197,8 @@ def _mode_features(
     own: float,
 ) -> list[Feature]:
     key = predicted.key
-    split = predicted.split + scatter.get(key[0], 0j) if predicted.multiplicity == 2 else 0j
+    scattered = predicted.scattered * scatter.get(key[0], 0j)
+    split = predicted.split + scattered if predicted.multiplicity == 2 else 0j
     if len(rows) == 1:
         return _single(test, rows[0], predicted, split, own)
     low, high = rows[0], rows[-1]

@@ -12,6 +12,7 @@ from statorhom.extraction.local_poles import local_poles
 from statorhom.extraction.measured_modes import MeasuredModes, NamedMode
 
 CLOSE = 0.012  # of the frequency: poles nearer than this may be images of one mode
+APART = 1.0  # half-power bandwidths by which a mode must stand off all others for its own pole to be told
 ALIKE = 0.5  # rad: antinodes of images lie together, those of a doublet's two modes apart
 LEAST_POINTS = 4  # per plane
 LEAST_SD = 5e-6
@@ -24,7 +25,11 @@ def plane_shifts(measured: MeasuredModes) -> tuple[PlaneShifts, ...]:
         return ()
     paired = {i for d in measured.doublets for i in (d.lower, d.upper)}
     kept = strongest(measured.modes, paired)
-    alone = [i for i in kept if i not in paired and measured.modes[i].order is not None]
+    alone = [
+        i
+        for i in kept
+        if i not in paired and measured.modes[i].order is not None and stands_off(measured.modes, i, kept)
+    ]
     if not alone:
         return ()
     extraction = replace(
@@ -70,6 +75,13 @@ def strongest(modes: Sequence[NamedMode], paired: set[int]) -> list[int]:
         if i in paired or not close:
             kept.append(i)
     return kept
+
+
+def stands_off(modes: Sequence[NamedMode], i: int, kept: Sequence[int]) -> bool:
+    """Whether no other mode shares the resonance: a single FRF cannot tell which of the two moved."""
+    own = modes[i].mode
+    width = APART * own.loss_factor * own.frequency_hz
+    return all(j == i or abs(modes[j].mode.frequency_hz - own.frequency_hz) > width for j in kept)
 
 
 def _by_plane(

@@ -43,6 +43,7 @@ class PredictedMode(NamedByMode):
     slope : d ln f by the materials (`material_vector`) where it is not the bonded stator's, else None.
     shares : source of a material, or "joint" → share of the strain energy; empty unless damping is predicted.
     friction : what slipping adds to the loss factor.
+    scattered : relative split by a unit of the scatter of its order.
     """
 
     key: ModeKey
@@ -53,6 +54,7 @@ class PredictedMode(NamedByMode):
     slope: np.ndarray | None = None
     shares: Mapping[str, float] = field(default_factory=dict)
     friction: float = 0.0
+    scattered: float = 1.0
 
     @property
     def frequency_hz(self) -> float:
@@ -146,7 +148,13 @@ def predicted(
         )
         response = shifts.get(key, Response(0.0, 0j))
         found[key] = PredictedMode(
-            key, one.mode, float(total + response.shift), one.split + response.split, shared, one.slope
+            key,
+            one.mode,
+            float(total + response.shift),
+            one.split + response.split,
+            shared,
+            one.slope,
+            scattered=stage.scattered.get(key, 1.0),
         )
     return found
 

@@ -12,6 +12,7 @@ import numpy as np
 from statorhom.diagnose.joint_basis import JointBasis, joint_basis
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.ring_basis import RingBasis, RingModes, ring_basis
+from statorhom.diagnose.scatter_weights import scatter_weights
 from statorhom.diagnose.supported_slopes import HeldShapes
 from statorhom.diagnose.trained_basis import TrainedBasis, trained_basis
 from statorhom.geometry.stator import StepGeometry
@@ -159,6 +160,11 @@ class StageModel:
             axial = profile.orders(problem.space, shape, component=2)
             found[key] = (profile.planes, np.hstack([problem.profile @ vector, axial]))
         return found
+
+    @cached_property
+    def scattered(self) -> Mapping[ModeKey, float]:
+        """Relative splits of the doublets by a unit of scatter, at the reference."""
+        return scatter_weights(self.model, self.reference, self.solve(self.reference), self.reference_keys)
 
     def slopes(
         self, materials: Materials, places: Mapping[ModeKey, tuple[int, int]]
