@@ -134,13 +134,12 @@ def supported_losses(
         }
         whole = sum(shares.values())
         if whole <= 0.0 or partner >= len(reference.held):
-            found.append(Feature("loss", test.name, key, 0.0, 0.0, 1.0, lost=True))
+            found.append(Feature("loss", test.name, key, 0.0, 0.0, 1.0, lost=True, rows=(mode.label,)))
             continue
         springs = float(reference.held[partner])
         # shapes that bear no name lose as those that do
         own = sum(share * losses[k] for k, share in shares.items()) / whole
         loss = max((1.0 - springs) * own + springs * support, LEAST)
-        found.append(
-            Feature("loss", test.name, key, float(np.log(mode.loss_factor)), float(np.log(loss)), LOSS_SD)
-        )
+        seen, told = float(np.log(mode.loss_factor)), float(np.log(loss))
+        found.append(Feature("loss", test.name, key, seen, told, LOSS_SD, rows=(mode.label,)))
     return found

@@ -7,7 +7,7 @@ coordinate of the constants) or have by themselves, and a lamination that differ
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -52,6 +52,7 @@ class Feature:
         lowest force level.
     sd : of their difference.
     lost : whether the model has no such mode: the residual is a penalty.
+    rows : labels of the measured modes that it is of; empty where it is of none, or they are named by the key alone.
     """
 
     kind: str
@@ -61,6 +62,7 @@ class Feature:
     predicted: float
     sd: float
     lost: bool = False
+    rows: tuple[str, ...] = ()
 
     @property
     def residual(self) -> float:
@@ -81,6 +83,11 @@ class Feature:
     def group(self) -> tuple[str, ModeKey | None]:
         """What is held out together: all features of one named mode of a test."""
         return self.test, self.key
+
+    @property
+    def observed(self) -> frozenset[tuple[str, str | ModeKey | None]]:
+        """What was measured of it, whatever partner an explanation finds for that."""
+        return frozenset((self.test, row) for row in self.rows) or frozenset([self.group])
 
 
 def held_down(residual: float) -> float:
@@ -173,9 +180,27 @@ def _lost(test: MeasuredTest, rows: Sequence[MeasuredMode]) -> list[Feature]:
     """Modes without a partner; what a recording shows beyond the usual orders may be an image of another mode."""
     kept = [m for m in rows if not test.recorded or (m.order is not None and m.order <= USUAL_ORDERS)]
     return [
-        Feature("frequency", test.name, None, LOST if m.order is not None else LOST_UNNAMED, 0.0, 1.0, True)
+        Feature(
+            "frequency",
+            test.name,
+            None,
+            LOST if m.order is not None else LOST_UNNAMED,
+            0.0,
+            1.0,
+            lost=True,
+            rows=(m.label,),
+        )
         for m in kept
     ]
+
+
+def with_rows(found: Sequence[Feature], modes: Sequence[MeasuredMode], keys: Keys) -> list[Feature]:
+    """Features of a free test with the labels of the measured modes that they are of."""
+    labels = {
+        key: tuple(m.label for m, k in zip(modes, keys, strict=True) if k == key)
+        for key in set(keys) - {None}
+    }
+    return [f if f.rows else replace(f, rows=labels.get(f.key, ())) for f in found]
 
 
 def own_sd(error: ModelError, key: ModeKey) -> float:

@@ -27,6 +27,7 @@ from statorhom.diagnose.features import (
     loading,
     missed_cost,
     shift_features,
+    with_rows,
 )
 from statorhom.diagnose.followed_modes import Names, names_of
 from statorhom.diagnose.levels import (
@@ -259,7 +260,7 @@ class Hypothesis(AnyHypothesis):
         if test.shifts:
             labels = {m.label: k for m, k in zip(measured, keys, strict=True) if k is not None}
             found += shift_features(test, labels, stage.amplitudes, sensor)
-        return found
+        return with_rows(found, measured, keys)
 
     def densities(self, values: Mapping[str, float], actions: Sequence[Action]) -> list[Feature]:
         """What is known of the densities of the regions that the tested steps add."""

@@ -29,9 +29,9 @@ def stability(explanations: Sequence[Explanation], seed: int) -> float:
     """
     if len(explanations) < 3:
         return 1.0
-    groups = [[f.group for f in e.refit.hypothesis.features(e.refit.z)] for e in explanations]
+    observed = [[f.observed for f in e.refit.hypothesis.features(e.refit.z)] for e in explanations]
     residuals = [e.refit.hypothesis.residuals(e.refit.z) for e in explanations]
-    names = sorted({g for part in groups for g in part}, key=str)
+    names = sorted({one for part in observed for rows in part for one in rows}, key=str)
     rng = np.random.default_rng(seed)
     outcomes = []
     for draw in range(DRAWS):
@@ -39,8 +39,8 @@ def stability(explanations: Sequence[Explanation], seed: int) -> float:
         chosen = {name for i, name in enumerate(names) if i in kept}
         noise, width = FACTORS[draw % 3], FACTORS[(draw // 3) % 3]
         scores = []
-        for e, own, r in zip(explanations, groups, residuals, strict=True):
-            rows = np.array([g in chosen for g in own])
+        for e, own, r in zip(explanations, observed, residuals, strict=True):
+            rows = np.array([one <= chosen for one in own])
             # an explanation's features may differ in number; what it says beside them is common to all
             scores.append(
                 resampled_evidence(e.refit, r, rows, noise, width) + e.log_evidence - e.refit.log_evidence

@@ -291,9 +291,11 @@ def supported_features(
     for number, (mode, partner) in enumerate(zip(test.modes, held, strict=True)):
         key = (mode.order if mode.order is not None else -1, mode.axial or 0, number)
         if partner is None or partner >= len(logs):
-            found.append(Feature("frequency", test.name, None, LOST, 0.0, 1.0, lost=True))
+            found.append(Feature("frequency", test.name, None, LOST, 0.0, 1.0, lost=True, rows=(mode.label,)))
             continue
         sd = float(np.sqrt(measured_sd(mode) ** 2 + OWN**2 + discrepancy**2))
         measured = float(np.log(mode.frequency_hz))
-        found.append(Feature("frequency", test.name, key, measured, float(logs[partner]), sd))
+        found.append(
+            Feature("frequency", test.name, key, measured, float(logs[partner]), sd, rows=(mode.label,))
+        )
     return found
