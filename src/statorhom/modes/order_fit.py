@@ -45,6 +45,9 @@ def fit_orders(values: ComplexArray, columns: FloatArray, rich: BoolArray) -> Or
     rich : ndarray of bool, shape (planes,)
         Planes with points enough to choose the orders by; the others follow them as far as they can.
     """
+    every = list(range(len(columns)))
+    if np.isfinite(values).all() and _resolves(columns, every, np.ones((1, values.shape[1]), dtype=bool)):
+        return _fit_complete(values, columns)
     orders = _strongest_orders(values[rich], columns)
     fit = OrderFit(
         np.full((len(values), len(columns), 2), np.nan, dtype=complex), np.full(len(values), np.nan)
@@ -127,13 +130,28 @@ def _resolves(columns: FloatArray, orders: list[int], masks: BoolArray) -> bool:
     return all(np.linalg.cond(flat[mask]) <= _LARGEST_CONDITION for mask in masks)
 
 
+def _fit_complete(values: ComplexArray, columns: FloatArray) -> OrderFit:
+    """Of planes without gaps: one least-squares problem for all of them."""
+    flat = _flat(columns, list(range(len(columns))))
+    solution = _least_squares(flat, values.T)
+    residual = np.mean(np.abs(flat @ solution - values.T) ** 2, axis=0)
+    return OrderFit(solution.T.reshape(len(values), -1, 2), residual)
+
+
 def _fit(values: ComplexArray, columns: FloatArray, orders: list[int]) -> OrderFit:
     amplitudes = np.zeros((len(values), len(columns), 2), dtype=complex)
     residual = np.empty(len(values))
     flat = _flat(columns, orders)
     for plane, row in enumerate(values):
         present = np.isfinite(row)
-        solution = np.linalg.lstsq(flat[present], row[present], rcond=None)[0]
+        solution = _least_squares(flat[present], row[present, None])[:, 0]
         residual[plane] = np.mean(np.abs(flat[present] @ solution - row[present]) ** 2)
         amplitudes[plane, orders] = solution.reshape(-1, 2)
     return OrderFit(amplitudes, residual)
+
+
+def _least_squares(flat: FloatArray, values: ComplexArray) -> ComplexArray:
+    """Complex coefficients (columns, k) of real columns: real and imaginary part side by side, in real arithmetic."""
+    both = np.linalg.lstsq(flat, np.hstack([values.real, values.imag]), rcond=None)[0]
+    real, imaginary = np.hsplit(both, 2)
+    return np.asarray(real + 1j * imaginary)

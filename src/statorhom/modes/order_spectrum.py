@@ -163,6 +163,8 @@ def _checked(radial: npt.ArrayLike, angles_rad: npt.ArrayLike) -> tuple[ComplexA
 
 def _rich_planes(values: ComplexArray, angles: FloatArray) -> BoolArray:
     """Planes with at least half as many different angles as the best one."""
+    if np.isfinite(values).all():
+        return np.ones(len(values), dtype=bool)
     counts = np.array([different_angles(angles[np.isfinite(plane)]) for plane in values])
     return 2 * counts >= counts.max()
 
