@@ -28,7 +28,7 @@ def plane_shifts(measured: MeasuredModes) -> tuple[PlaneShifts, ...]:
     alone = [
         i
         for i in kept
-        if i not in paired and measured.modes[i].order is not None and stands_off(measured.modes, i, kept)
+        if i not in paired and measured.modes[i].order is not None and stands_off(measured.modes, i)
     ]
     if not alone:
         return ()
@@ -77,11 +77,16 @@ def strongest(modes: Sequence[NamedMode], paired: set[int]) -> list[int]:
     return kept
 
 
-def stands_off(modes: Sequence[NamedMode], i: int, kept: Sequence[int]) -> bool:
-    """Whether no other mode shares the resonance: a single FRF cannot tell which of the two moved."""
-    own = modes[i].mode
-    width = APART * own.loss_factor * own.frequency_hz
-    return all(j == i or abs(modes[j].mode.frequency_hz - own.frequency_hz) > width for j in kept)
+def stands_off(modes: Sequence[NamedMode], i: int) -> bool:
+    """Whether no mode of another name shares the resonance: a single FRF cannot tell which of the two moved."""
+    own = modes[i]
+    width = APART * own.mode.loss_factor * own.mode.frequency_hz
+    return not any(
+        other.order is not None
+        and (other.order, other.axial) != (own.order, own.axial)
+        and abs(other.mode.frequency_hz - own.mode.frequency_hz) < width
+        for other in modes
+    )
 
 
 def _by_plane(
