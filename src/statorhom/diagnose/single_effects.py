@@ -26,7 +26,9 @@ from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.mislabelled import worth_trying
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.scan import Scan, Signature
+from statorhom.diagnose.scan import starts as scan_starts
 from statorhom.diagnose.searched_starts import searched_starts
+from statorhom.diagnose.wider_basis import with_materials_of
 from statorhom.physics.candidate import Candidate
 
 STARTS = 2  # of one candidate
@@ -137,7 +139,12 @@ def _starts_of(base: Refit, found: Scan, signature: Signature) -> list[_Start]:
     for one in own:
         if all(abs(float(one.change @ other.change)) < 0.9 for other in chosen):
             chosen.append(one)
-    return [_start(base, s.candidate, s.start) for s in chosen[:STARTS]]
+    begun = [_start(base, s.candidate, s.start) for s in chosen[:STARTS]]
+    if not is_poor(base):
+        return begun
+    every = [np.r_[base.z, start] for start in scan_starts(base.hypothesis.study, signature.candidate)]
+    wider = with_materials_of(begun[0].hypothesis, every)
+    return [replace(one, hypothesis=wider) for one in begun]
 
 
 def _start(base: Refit, candidate: Candidate, start: np.ndarray) -> _Start:

@@ -35,6 +35,7 @@ from statorhom.physics.action import Training
 BAND = 1.12  # predictions reach this much higher than the highest measured mode
 BROKEN_MARGIN = 1.25
 MOST = 6  # modes of a harmonic problem on it
+OF_REFERENCE = ("broken", "mirrors", "reference_keys", "amplitudes", "scattered")
 FINER = 1.5  # second mesh of the extrapolation
 
 
@@ -211,6 +212,14 @@ def mesh_error(setup: StageSetup, ring: RingBasis, materials: Materials, density
     coarse = FreeModes(ring.solve(materials).modes, (), (), ())
     found = converge([1.0, 1 / FINER], [ring.model.mesh.full_dof, finer.mesh.full_dof], [coarse, fine])
     return ModelError.of_factors({c.key: c.factor for c in found})
+
+
+def with_snapshots(stage: StageModel, materials: Sequence[Materials]) -> StageModel:
+    """The stage at its reference, predicted well near further materials too."""
+    wider = replace(stage, ring=stage.ring.extended(materials), _last={}, _slopes={})
+    # what belongs to the reference alone stays
+    wider.__dict__.update({name: stage.__dict__[name] for name in OF_REFERENCE if name in stage.__dict__})
+    return wider
 
 
 def with_reference(stage: StageModel, materials: Materials) -> StageModel:
