@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -13,6 +14,7 @@ from statorhom.diagnose.valleys import trials_around, wide_optima
 from statorhom.errors import IdentificationError
 
 REFITTED = 6  # points that are followed in wide valleys
+SUPPORTS = 8  # that are tried, each with many materials
 
 
 def searched_starts(hypothesis: Hypothesis, z: np.ndarray, seed: int = 0) -> list[Refit[Hypothesis]]:
@@ -32,8 +34,16 @@ def searched_starts(hypothesis: Hypothesis, z: np.ndarray, seed: int = 0) -> lis
         return []
     low, high = hypothesis.limits()
     points = trials_around(z, [*places, *range(len(constants), len(z))], seed)
+    if any(action.supports for action in hypothesis.actions(z)):
+        points = _with_few_supports(points, len(constants))
     try:
         quick = replace(hypothesis, trained=False)
         return wide_optima(quick, [np.clip(point, low, high) for point in points], REFITTED)
     except IdentificationError:
         return []
+
+
+def _with_few_supports(points: Sequence[np.ndarray], constants: int) -> list[np.ndarray]:
+    """The same constants with few supports, neighbours with the same: a support costs more than a material."""
+    run = -(-len(points) // SUPPORTS)
+    return [np.r_[z[:constants], points[i // run * run][constants:]] for i, z in enumerate(points)]

@@ -14,6 +14,7 @@ BoolArray = npt.NDArray[np.bool_]
 # Noise at the points is amplified by at most this factor; an order that would need more is left out.
 _LARGEST_CONDITION = 10.0
 _LEAST_GAIN = 1e-24  # of the sum of squares: below it there are only rounding errors left
+_ROUNDING = 1e-9  # of products of columns
 _LEAST_ALIKE = 0.8  # of an order's mean square, explained by another one that is then as likely
 
 
@@ -96,10 +97,19 @@ def _next_order(
 
 def lookalikes(fit: OrderFit, columns: FloatArray, present: BoolArray, order: int) -> tuple[int, ...]:
     """Other orders that would explain nearly all that `order` explains at the points that are present."""
+    if np.all(present) and _orthogonal(columns):
+        return ()
     part = np.einsum("pk,jk->pj", np.nan_to_num(fit.amplitudes[:, order]), columns[order]) * present
     explained = _gains(part, columns, present)
     alike = explained >= _LEAST_ALIKE * explained[order]
     return tuple(other for other in np.flatnonzero(alike).tolist() if other != order)
+
+
+def _orthogonal(columns: FloatArray) -> bool:
+    """Whether no order shares anything with another one at all of the points."""
+    flat = _flat(columns, list(range(len(columns))))
+    gram = flat.T @ flat
+    return float(np.abs(gram - np.diag(np.diag(gram))).max()) < _ROUNDING * float(gram.max())
 
 
 def _shape(fit: OrderFit, columns: FloatArray) -> ComplexArray:
