@@ -81,3 +81,20 @@ def test_one_explanation_alone_is_never_ambiguous() -> None:
     alone = replace(GOOD, over_others=float("inf"))
     assert decide(alone) == "named"
     assert decide(replace(alone, held_out=FEW)) == "unknown"
+
+
+BETTER = replace(FEW, after=(0.1, 0.1, 0.5, 0.1, 0.1, 0.1))
+
+
+def test_few_modes_and_evidence_far_ahead_name() -> None:
+    seen = replace(GOOD, held_out=replace(BETTER, noise=(0.9,) * 6))
+    assert not seen.predicts
+    assert decide(seen) == "named"
+    assert decide(replace(seen, over_others=9.0)) == "ambiguous"
+    assert decide(replace(seen, over_nothing=19.0)) == "ambiguous"
+
+
+def test_an_adequate_declared_model_wants_more_evidence() -> None:
+    adequate = replace(GOOD, nothing_adequacy=0.4, over_nothing=12.0)
+    assert decide(adequate) == "none"
+    assert decide(replace(adequate, over_nothing=25.0)) == "named"

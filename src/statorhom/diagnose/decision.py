@@ -14,7 +14,11 @@ from statorhom.diagnose.held_out import HeldOut
 Verdict = Literal["none", "named", "ambiguous", "unknown"]
 MAX_T_P = 0.01
 OVER_NOTHING, OVER_OTHERS = 5.0, 3.0  # of log evidence
+# The same where something else speaks against it: the declared model misses nothing by more than chance, or too few
+# modes show the effect for held-out ones to confirm it.
+FAR_OVER_NOTHING, FAR_OVER_OTHERS = 20.0, 10.0
 ADEQUATE = 0.01
+AS_IT_SHOULD = 0.1  # chance of the declared model's misfit from which on there is nothing to explain
 STABLE = 0.8
 FEW = 4  # modes that show an effect, below which held-out modes cannot decide
 NEAR_BOUND = 0.02  # of a parameter's range, in its own scale
@@ -47,12 +51,19 @@ class Evidence:
     @property
     def detected(self) -> bool:
         """Rule 1, and the first half of rule 2: something is missing."""
-        return self.p_value < MAX_T_P and self.over_nothing > OVER_NOTHING
+        least = FAR_OVER_NOTHING if self.nothing_adequacy > AS_IT_SHOULD else OVER_NOTHING
+        return self.p_value < MAX_T_P and self.over_nothing > least
 
     @property
     def predicts(self) -> bool:
         """Rule 3."""
         return self.held_out is not None and self.held_out.falls and not self.held_out.worsens
+
+    @property
+    def evident(self) -> bool:
+        """Whether the evidence alone names it, where the few modes that show it are predicted better than before."""
+        far = self.over_nothing > FAR_OVER_NOTHING and self.over_others > FAR_OVER_OTHERS
+        return far and self.held_out is not None and self.held_out.improves
 
     @property
     def sound(self) -> bool:
@@ -72,7 +83,7 @@ def decide(evidence: Evidence) -> Verdict:
         return "none" if evidence.nothing_adequacy > ADEQUATE or evidence.p_value >= MAX_T_P else "unknown"
     if not evidence.sound or not (evidence.predicts or evidence.undecided):
         return "unknown" if evidence.nothing_adequacy <= ADEQUATE else "none"
-    if not evidence.predicts:
+    if not (evidence.predicts or evidence.evident):
         return "ambiguous"
     # resamplings are lost to rivals alone, so that an unstable winner has some
     alone = evidence.over_others > OVER_OTHERS and evidence.stability >= STABLE

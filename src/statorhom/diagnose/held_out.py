@@ -78,6 +78,11 @@ class HeldOut:
         return np.array(errors) / np.maximum(np.array(self.noise), LEAST_NOISE)
 
     @property
+    def improves(self) -> bool:
+        """Whether the error falls by enough, by chance or not."""
+        return bool(self.groups) and self.after_rms <= (1 - LEAST_FALL) * self.before_rms
+
+    @property
     def falls(self) -> bool:
         """Whether the error falls by enough, and by more than chance."""
         if not self.groups:
