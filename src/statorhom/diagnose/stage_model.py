@@ -34,6 +34,7 @@ from statorhom.physics.action import Training
 
 BAND = 1.12  # predictions reach this much higher than the highest measured mode
 BROKEN_MARGIN = 1.25
+CUT = 1.5  # of a narrower band: how far its basis reaches beyond it
 MOST = 6  # modes of a harmonic problem on it
 OF_REFERENCE = ("broken", "mirrors", "reference_keys", "amplitudes", "scattered")
 FINER = 1.5  # second mesh of the extrapolation
@@ -64,6 +65,7 @@ class StageModel:
     _slopes: dict[int, dict[tuple[int, int], np.ndarray]] = field(default_factory=dict, repr=False)
     _joints: dict[tuple[tuple[str, ...], bool], JointBasis] = field(default_factory=dict, repr=False)
     _trained: dict[tuple[str, ...], TrainedBasis] = field(default_factory=dict, repr=False)
+    _narrow: dict[float, TrainedBasis] = field(default_factory=dict, repr=False)
     held_shapes: dict[str, HeldShapes] = field(default_factory=dict, repr=False)
 
     @property
@@ -145,6 +147,21 @@ class StageModel:
                 found = found.trained(one.examples(self.model.mesh, self.reference), named)
             self._trained[mark] = found
         return self._trained[mark]
+
+    def below(self, highest_hz: float) -> TrainedBasis:
+        """The broken basis for a narrower band: a soft winding has hundreds of modes beyond a clamped test's.
+
+        Static responses stand for what lies above the cut.
+        """
+        cut = CUT * highest_hz
+        if cut >= self.broken.cut_hz:
+            return self.trained(())
+        known = self._narrow.get(highest_hz)
+        if known is None:
+            basis = replace(self.broken.truncated(cut), highest_hz=highest_hz)
+            named = {key: place for key, place in self._named.items() if place[1] < cut}
+            known = self._narrow[highest_hz] = trained_basis(basis, named)
+        return known
 
     @cached_property
     def amplitudes(self) -> Mapping[ModeKey, tuple[np.ndarray, np.ndarray]]:
@@ -232,6 +249,7 @@ def with_reference(stage: StageModel, materials: Materials) -> StageModel:
         _slopes={},
         _joints={},
         _trained={},
+        _narrow={},
         held_shapes={},
         kept_responses={},
     )

@@ -18,10 +18,12 @@ from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import KEPT, PredictedMode, material_vector
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.supported_slopes import HeldShapes, held_shapes
+from statorhom.diagnose.trained_basis import TrainedBasis
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Materials
 from statorhom.model.broken.attachments import springs
 from statorhom.model.broken.change import Attachment, Change
+from statorhom.model.broken.named_response import Columns
 from statorhom.model.broken.solve import BrokenModes, solve_broken
 from statorhom.model.convergence import ModeKey
 from statorhom.model.supports import HeldPoints, support_on
@@ -35,6 +37,7 @@ RIGID_PER_M2, RIGID_PER_M3 = 1e14, 1e16  # stiffness of what holds like a rock (
 OWN = 3e-3  # relative model error of a supported frequency: lines have a width, clamps a form
 LOG_SPREAD, MAC_SPREAD = 0.2, 0.2  # within which partners are sought
 GATE = 9.0
+REACH = 2.0  # of a test's highest mode: how far partners are sought
 NAME_COST = 4.0
 # springs whose shapes hold those of all others: part of the rigid stiffness, tangential ratio
 TRAININGS = tuple((part, ratio) for part in (1e-6, 1e-5, 1e-4, 1e-3, 1.0) for ratio in (0.3, 1.2))
@@ -157,9 +160,10 @@ def _solved(
     support = support_on(mesh, elastic_keys(keys))
     if support.ends is not None or support.points.stiffness is None:
         return None
-    modes = solve_broken(stage.broken, [_springs(stage, support.points), *more], tolerance=None)
+    free = _free_basis(stage, test)
+    modes = solve_broken(free.basis, [_springs(stage, support.points), *more], tolerance=None)
     log_f = np.log(modes.frequencies_hz)
-    shares = {key: _share(modes, stage, key) for key in stage.columns}
+    shares = {key: _share(modes, place) for key, place in free.columns.items()}
     held = _held_share(modes)
     slopes = _shapes(stage, test, keys).slopes(modes, held, stage.reference)
     if not shapes:
@@ -177,7 +181,7 @@ def _shapes(stage: StageModel, test: MeasuredTest, keys: SupportKeys) -> HeldSha
     """Shapes on springs of all stiffnesses at the places of a support."""
     if test.name not in stage.held_shapes:
         springs = [_held_by(stage, _stiff(keys, *pair)) for pair in TRAININGS]
-        solved = [solve_broken(stage.broken, [s], tolerance=None) for s in springs]
+        solved = [solve_broken(_free_basis(stage, test).basis, [s], tolerance=None) for s in springs]
         stage.held_shapes[test.name] = held_shapes(stage.model, solved)
     return stage.held_shapes[test.name]
 
@@ -206,8 +210,12 @@ def _springs(stage: StageModel, held: HeldPoints) -> Attachment:
     return replace(known, stiffness=found.stiffness)
 
 
-def _share(modes: BrokenModes, stage: StageModel, key: ModeKey) -> np.ndarray:
-    place = stage.columns[key]
+def _free_basis(stage: StageModel, test: MeasuredTest) -> TrainedBasis:
+    """Free modes that a test's supported ones are made of."""
+    return stage.below(REACH * max(mode.frequency_hz for mode in test.modes))
+
+
+def _share(modes: BrokenModes, place: Columns) -> np.ndarray:
     used = [place.cosine] if place.sine is None else [place.cosine, place.sine]
     energy = np.sum(modes.coordinates[used] ** 2, axis=0) * place.eigenvalue
     return np.asarray(np.minimum(energy / modes.eigenvalues, 1.0))
