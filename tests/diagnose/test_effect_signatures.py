@@ -200,7 +200,9 @@ def test_a_sensor_moves_the_poles_from_plane_to_plane(stack: StageModel) -> None
 def test_an_elastic_support(stiffness: float, files: StudyFiles, stack: StageModel) -> None:
     """Frequencies on its springs, and how they follow the stiffness of the springs and of the core."""
     one = candidate(files, "support_compliance", "stack")
-    test = SimpleNamespace(name="held", support="clamped", shapes=None)
+    # the lowest modes alone: the rest of the band is not solved
+    band = (SimpleNamespace(frequency_hz=stack.ring.highest_hz / 3),)
+    test = SimpleNamespace(name="held", support="clamped", shapes=None, modes=band)
     before = stack.reference["lamination"]
     hooke = before.hooke.matrix.copy()
     hooke[3, 3] *= 1.1
