@@ -37,6 +37,9 @@ MOST = 12  # candidates that are refitted
 RELABELLED = 4
 POOR = 3.0  # squared residual per feature above which another valley is looked for
 CHEAP, MIDDLING, DEAR = range(3)  # prices
+FIRST = 4  # cheap candidates that are followed whatever wide valleys say of them
+PART = 0.2  # of the best one's gain in wide valleys, from which on others are
+MOSTLY = 0.5  # of the declared model's objective, below which an explanation leads
 NEAR = 60.0  # of the objective: what does not come so near to an adequate explanation is given up
 
 
@@ -56,6 +59,9 @@ class _Start:
     rough: Refit | None = None
 
 
+_Trial = tuple[float, list[_Start]]  # gain of the scan, and where refits begin
+
+
 def single_effects(
     base: Refit, found: Scan, discrete: Sequence[Candidate], counts: dict[str, int]
 ) -> list[Explanation]:
@@ -73,6 +79,8 @@ def single_effects(
         worth = _worth(explanations)
         if gain < WORTH and np.isfinite(worth):
             continue  # it promises nothing, and nothing is left to explain
+        if _price((gain, starts)) > CHEAP:
+            worth = min(worth, _leading(base, explanations))
         best = _best_refit(starts, worth, far=is_poor(base))
         if best is not None:
             explanations.append(explained(best, counts))
@@ -109,7 +117,13 @@ def _worth(explanations: Sequence[Explanation]) -> float:
     return min(adequate, default=np.inf) + NEAR
 
 
-def _in_order(base: Refit, found: Scan) -> Iterator[tuple[float, list[_Start]]]:
+def _leading(base: Refit, explanations: Sequence[Explanation]) -> float:
+    """The same for what is dear, where a cheap effect explains most of the misfit: it leads, adequate or not."""
+    best = min((e.refit.objective for e in explanations), default=np.inf)
+    return best + NEAR if best < MOSTLY * base.objective else np.inf
+
+
+def _in_order(base: Refit, found: Scan) -> Iterator[_Trial]:
     """Gain and starts of the candidates that are worth it, in the order in which they are tried."""
     first, *rest = found.worth_refitting(MOST, WORTH, nothing(base).adequacy < ADEQUATE) or (None,)
     if first is None:
@@ -128,8 +142,22 @@ def _in_order(base: Refit, found: Scan) -> Iterator[tuple[float, list[_Start]]]:
     ]
     cheap = [trial for trial in (*trials, *others) if _price(trial) == CHEAP]
     widest = [(gain, [_with_rough(start) for start in starts]) for gain, starts in cheap]
-    yield from sorted(widest, key=lambda trial: min(_rough_objective(start) for start in trial[1]))
+    yield from _promising(base, widest)
     yield from sorted((trial for trial in trials if _price(trial) > CHEAP), key=_price)
+
+
+def _promising(base: Refit, trials: Sequence[_Trial]) -> list[_Trial]:
+    """Those that wide valleys like, the best first: the first few, and what gains a part of what the best one does."""
+
+    def rough(trial: _Trial) -> float:
+        return min(_rough_objective(start) for start in trial[1])
+
+    ordered = sorted(trials, key=rough)
+    declared = widened(blank(base.hypothesis, ()), base.z)
+    if declared is None or not ordered:
+        return ordered
+    least = PART * (declared.objective - rough(ordered[0]))
+    return [t for i, t in enumerate(ordered) if i < FIRST or declared.objective - rough(t) >= least]
 
 
 def _starts_of(base: Refit, found: Scan, signature: Signature) -> list[_Start]:
@@ -166,7 +194,7 @@ def _rough_objective(start: _Start) -> float:
     return np.inf if start.rough is None else start.rough.objective
 
 
-def _price(trial: tuple[float, list[_Start]]) -> int:
+def _price(trial: _Trial) -> int:
     """What an evaluation costs: least where the symmetry is kept, most with a contact."""
     _, (start, *_) = trial
     action = start.hypothesis.actions(start.z)[0]
