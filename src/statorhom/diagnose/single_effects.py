@@ -28,10 +28,12 @@ from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.scan import Scan, Signature
 from statorhom.diagnose.scan import starts as scan_starts
 from statorhom.diagnose.searched_starts import searched_starts
+from statorhom.diagnose.valleys import wide_optima
 from statorhom.diagnose.wider_basis import with_materials_of
+from statorhom.errors import IdentificationError
 from statorhom.physics.candidate import Candidate
 
-STARTS = 2  # of one candidate
+STARTS, TRIED = 2, 4  # of one candidate that are followed, and that wide valleys choose them from
 WORTH = 2.0  # gain of the scan below which an effect is not refitted
 MOST = 12  # candidates that are refitted
 RELABELLED = 4
@@ -141,7 +143,7 @@ def _in_order(base: Refit, found: Scan) -> Iterator[_Trial]:
         (s.gain, _starts_of(base, found, s)) for s in found.of_every_candidate() if s not in (first, *rest)
     ]
     cheap = [trial for trial in (*trials, *others) if _price(trial) == CHEAP]
-    widest = [(gain, [_with_rough(start) for start in starts]) for gain, starts in cheap]
+    widest = [(gain, _with_rough(base, starts)) for gain, starts in cheap]
     yield from _promising(base, widest)
     yield from sorted((trial for trial in trials if _price(trial) > CHEAP), key=_price)
 
@@ -186,8 +188,16 @@ def _searched(start: _Start) -> list[_Start]:
     return [replace(start, z=rough.z, rough=rough) for rough in found]
 
 
-def _with_rough(start: _Start) -> _Start:
-    return replace(start, rough=widened(start.hypothesis, start.z))
+def _with_rough(base: Refit, starts: list[_Start]) -> list[_Start]:
+    """Starts at the best optima in wide valleys that are found from all of a cheap candidate's magnitudes."""
+    hypothesis = starts[0].hypothesis
+    every = scan_starts(base.hypothesis.study, hypothesis.candidates[0])
+    points = [*(start.z for start in starts), *(np.r_[base.z, one] for one in every)]
+    try:
+        found = wide_optima(replace(hypothesis, trained=False), points, TRIED)[:STARTS]
+    except IdentificationError:
+        return starts
+    return [_Start(hypothesis, rough.z, rough) for rough in found]
 
 
 def _rough_objective(start: _Start) -> float:
