@@ -17,12 +17,27 @@ from statorhom.diagnose.prediction import acted_materials
 from statorhom.diagnose.stage_model import mesh_error, with_reference
 
 MOST = 3  # explanations that get models of their own before a second effect is sought
+ROUNDS = 3  # models of one explanation
+SETTLED = 2.0  # of the objective, that another one must have gained
 WORSE = 10.0  # of the objective, by which a model of its own is worse than the common one
 BEHIND = 150.0  # log evidence by which others are too far behind for that
 
 
 def sharpened(explanation: Explanation) -> Explanation:
-    """The same with basis and mesh factors of its own materials."""
+    """The same with basis and mesh factors of its own materials, anew while that explains more.
+
+    What breaks the symmetry is solved at the reference: where that was far off, the constants move with it.
+    """
+    found = _sharpened(explanation)
+    for _ in range(ROUNDS - 1):
+        gained = explanation.refit.objective - found.refit.objective
+        if found.adequacy > ADEQUATE or gained < SETTLED:
+            break
+        explanation, found = found, _sharpened(found)
+    return found
+
+
+def _sharpened(explanation: Explanation) -> Explanation:
     r = explanation.refit
     hypothesis = r.hypothesis
     values, actions = hypothesis.study.constants.values(r.z[: hypothesis.constants]), hypothesis.actions(r.z)
