@@ -10,11 +10,14 @@ import numpy.typing as npt
 from statorhom.diagnose.decision import OVER_NOTHING, OVER_OTHERS
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.refit import Refit, log_volume
+from statorhom.model.convergence import ModeKey
 
 FloatArray = npt.NDArray[np.float64]
 FACTORS = (0.5, 1.0, 2.0)  # of prior widths and of standard deviations
 DRAWS = 40
 KEPT = 0.8  # of the modes in each draw
+
+Observed = tuple[str, str | ModeKey | None]
 
 
 def stability(explanations: Sequence[Explanation], seed: int) -> float:
@@ -31,12 +34,12 @@ def stability(explanations: Sequence[Explanation], seed: int) -> float:
         return 1.0
     observed = [[f.observed for f in e.refit.hypothesis.features(e.refit.z)] for e in explanations]
     residuals = [e.refit.hypothesis.residuals(e.refit.z) for e in explanations]
-    names = sorted({one for part in observed for rows in part for one in rows}, key=str)
+    units = _units([rows for part in observed for rows in part])
     rng = np.random.default_rng(seed)
     outcomes = []
     for draw in range(DRAWS):
-        kept = set(rng.permutation(len(names))[: max(2, round(KEPT * len(names)))].tolist())
-        chosen = {name for i, name in enumerate(names) if i in kept}
+        kept = rng.permutation(len(units))[: max(2, round(KEPT * len(units)))]
+        chosen = frozenset().union(*(units[i] for i in kept))
         noise, width = FACTORS[draw % 3], FACTORS[(draw // 3) % 3]
         scores = []
         for e, own, r in zip(explanations, observed, residuals, strict=True):
@@ -48,6 +51,15 @@ def stability(explanations: Sequence[Explanation], seed: int) -> float:
         outcomes.append(wins(scores))
     counted = [won for won in outcomes if won is not None]
     return float(np.mean(counted)) if counted else 1.0
+
+
+def _units(observed: Sequence[frozenset[Observed]]) -> list[frozenset[Observed]]:
+    """What is drawn together: lines that any explanation takes for one doublet, in a fixed order."""
+    units: list[frozenset[Observed]] = []
+    for rows in observed:
+        apart = [unit for unit in units if not unit & rows]
+        units = [*apart, rows.union(*(unit for unit in units if unit & rows))]
+    return sorted(units, key=lambda unit: sorted(map(str, unit)))
 
 
 def wins(scores: Sequence[float]) -> bool | None:
