@@ -10,8 +10,8 @@ from statorhom.model.stator_mode import StatorMode
 SIZES = np.array([1.0, 1 / 1.5, 1 / 2.0])
 
 
-def mode(frequency, order=2, axial=0):
-    return StatorMode(frequency, order, axial, "radial", 0.5, 2, 0, 0)
+def mode(frequency, order=2, axial=0, visibility=0.5, column=0):
+    return StatorMode(frequency, order, axial, "radial", visibility, 2, 0, column)
 
 
 def solution(*modes):
@@ -74,6 +74,16 @@ def test_a_finer_mesh_is_softer_and_no_two_modes_become_one():
         [1.0, 1 / 1.5], [100, 300], [solution(mode(4500.0), mode(4700.0)), solution(mode(4480.0))]
     )
     assert [c.frequency_hz for c in both] == [(4500.0, 4480.0)]
+
+
+def test_soft_teeth_take_no_other_modes_place():
+    """A mode falls by 5 %, and one of another name falls next to where it was and bears its name now."""
+    coarse = solution(mode(2895.0), mode(5172.0, visibility=0.58, column=1))
+    fine = solution(
+        mode(2860.0), mode(4899.0, visibility=0.5, column=1), mode(5158.0, visibility=0.32, column=2)
+    )
+    found = converge([1.0, 1 / 1.5], [100, 300], [coarse, fine])
+    assert [c.frequency_hz for c in found] == [(2895.0, 2860.0), (5172.0, 4899.0)]
 
 
 def test_keys_count_modes_of_one_name_from_below():

@@ -15,6 +15,8 @@ ORDERS = (1.2, 3.0)
 # of ln f from mesh to mesh; beyond them, it is another mode. A finer mesh is softer, but for what it sees better of the
 # shape of the body.
 LARGEST_FALL, LARGEST_RISE = 0.07, 0.005
+USUAL_STEP, USUAL_CHANGE = 0.03, 0.3  # of ln f and of the logarithm of the visibility, of one mode
+UNSEEN = 1e-9  # visibility that is none
 USUAL_ORDER = 2.3  # of graded meshes of slotted cores (measured on the 36-slot machine)
 
 ModeKey = tuple[int, int, int]
@@ -70,27 +72,28 @@ def converge(
     solutions : modes at the same materials.
     """
     tables = [mode_keys(solution.modes) for solution in solutions]
-    series = {key: [mode.frequency_hz] for key, mode in tables[0].items()}
+    series = {key: [mode] for key, mode in tables[0].items()}
     for table in tables[1:]:
-        finer: dict[tuple[int, int], list[float]] = {}
+        finer: dict[tuple[int, int], list[StatorMode]] = {}
         for key, mode in table.items():
-            finer.setdefault(key[:2], []).append(mode.frequency_hz)
+            finer.setdefault(key[:2], []).append(mode)
         series = _continued(series, finer)
-    return tuple(_mode(key, sizes, dofs, frequencies) for key, frequencies in series.items())
+    return tuple(_mode(key, sizes, dofs, [m.frequency_hz for m in modes]) for key, modes in series.items())
 
 
 def _continued(
-    series: Mapping[ModeKey, list[float]], finer: Mapping[tuple[int, int], Sequence[float]]
-) -> dict[ModeKey, list[float]]:
-    """Series with the frequencies of the next mesh, the nearest of their names first; without those that are lost.
+    series: Mapping[ModeKey, list[StatorMode]], finer: Mapping[tuple[int, int], Sequence[StatorMode]]
+) -> dict[ModeKey, list[StatorMode]]:
+    """Series with the modes of the next mesh, the likest of their names first; without those that are lost.
 
-    Ranks would not do: a mode that hardly moves the surface may be visible on one mesh alone.
+    Ranks would not do: a mode that hardly moves the surface may be visible on one mesh alone. Nor does frequency:
+    teeth are so much softer on a finer mesh that one of their modes takes the place of another.
     """
     steps = [
-        (abs(step), key, i)
-        for key, frequencies in series.items()
+        (_unlike(modes[-1], found), key, i)
+        for key, modes in series.items()
         for i, found in enumerate(finer.get(key[:2], ()))
-        if -LARGEST_FALL < (step := float(np.log(found / frequencies[-1]))) < LARGEST_RISE
+        if -LARGEST_FALL < np.log(found.frequency_hz / modes[-1].frequency_hz) < LARGEST_RISE
     ]
     partners: dict[ModeKey, int] = {}
     taken: set[tuple[int, int, int]] = set()
@@ -98,11 +101,14 @@ def _continued(
         if key not in partners and (*key[:2], i) not in taken:
             partners[key] = i
             taken.add((*key[:2], i))
-    return {
-        key: [*frequencies, finer[key[:2]][partners[key]]]
-        for key, frequencies in series.items()
-        if key in partners
-    }
+    return {key: [*modes, finer[key[:2]][partners[key]]] for key, modes in series.items() if key in partners}
+
+
+def _unlike(coarse: StatorMode, fine: StatorMode) -> float:
+    """How little speaks for one mode: frequency, motion of the surface, place among the modes of its problem."""
+    step = np.log(fine.frequency_hz / coarse.frequency_hz) / USUAL_STEP
+    seen = np.log(max(fine.visibility, UNSEEN) / max(coarse.visibility, UNSEEN)) / USUAL_CHANGE
+    return float(step**2 + seen**2 + (fine.column != coarse.column))
 
 
 def _mode(
