@@ -8,14 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from statorhom.errors import IdentificationError
 from statorhom.geometry.stator import StepGeometry
+from statorhom.identify.body_shifts import UNDERSTOOD as UNDERSTOOD_OF_BODIES
+from statorhom.identify.body_shifts import body_shifts
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.mesh.hex_mesh import PartMesh
+from statorhom.mesh.mirror_mesh import MirrorMesh
 from statorhom.model.affine import AffineModel, Materials, stator_model
 from statorhom.model.broken.basis import symmetric_basis
 from statorhom.model.broken.named_response import Response, columns_of, named_response
@@ -65,6 +69,9 @@ class EffectShifts:
         """
         if not self.actions:
             return {}
+        if isinstance(model.mesh, MirrorMesh):
+            with threadpool_limits(limits=1, user_api="blas"):
+                return body_shifts(self.actions, cast(AffineModel[MirrorMesh], model), materials, highest_hz)
         return self._at(stator_model(model), materials, highest_hz, orders)
 
     def _at(
@@ -140,12 +147,9 @@ def effect_shifts(files: StudyFiles, setup: StageSetup) -> EffectShifts:
         If an effect cannot be in the frequencies that a fit compares.
     """
     here = [d for d in declared_effects(files) if d.action.touches(setup.keys.name)]
-    if here and not isinstance(setup.step, StepGeometry):
-        raise IdentificationError(
-            f"{files.path}: stages[{setup.keys.name}].effects: plates and beams have no effects yet; delete them"
-        )
+    understood = UNDERSTOOD if isinstance(setup.step, StepGeometry) else UNDERSTOOD_OF_BODIES
     for effect in here:
-        unknown = beyond(effect.action, UNDERSTOOD)
+        unknown = beyond(effect.action, understood)
         if unknown is not None:
             raise IdentificationError(
                 f"{files.path}: stages[{setup.keys.name}].effects: simulate, fit and run cannot model "

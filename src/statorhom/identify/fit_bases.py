@@ -12,6 +12,7 @@ from statorhom.identify.optimizers.workers import Workers
 from statorhom.identify.parameters import ParameterSpace
 from statorhom.identify.stage_basis import (
     LOCAL,
+    LOCAL_OF_BLOCKS,
     SEARCH,
     SEARCH_OF_BLOCKS,
     SHARED,
@@ -65,8 +66,9 @@ class FitBases:
 
     def around(self, problem: StageProblem, optima: Sequence[np.ndarray]) -> ReducedStator:
         """Reduced model for what lies around optima of a problem, the best first."""
-        training = neighbouring_materials(problem, optima, LOCAL.training)
-        return self._reduce("bases around the optima", training, training[0], LOCAL)
+        plan = LOCAL_OF_BLOCKS if isinstance(self.model.mesh, MirrorMesh) else LOCAL
+        training = neighbouring_materials(problem, optima, plan.training)
+        return self._reduce("bases around the optima", training, training[0], plan)
 
     def _reduce(
         self, what: str, training: Sequence[Materials], typical: Materials, plan: BasisPlan

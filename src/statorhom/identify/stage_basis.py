@@ -51,6 +51,7 @@ SEARCH = BasisPlan(64, 4, 1e-2)
 # plates and wings have few problems and large ones: what counts are full solves, and a single cell needs the fewest
 SEARCH_OF_BLOCKS = BasisPlan(64, 1, 1e-2, folded=True)
 LOCAL = BasisPlan(16, 4, TOLERANCE)
+LOCAL_OF_BLOCKS = BasisPlan(16, 1, TOLERANCE, folded=True)
 SHARED = BasisPlan(512, 12, 3e-4)
 
 BasisTask = tuple[AffineModel[PartMesh], Space, MaterialBox, float, float, BasisStore | None]

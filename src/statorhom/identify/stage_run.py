@@ -139,7 +139,9 @@ def run_stage(
     keys, acting = setup.keys.identify, shifts if effects.actions else None
     surface: SurfaceSearch | None = None
     if keys.method == "response_surface":
-        full = part_model(model, typical, LOOK * top, sorted({order for order, _ in names}))
+        # all modes of a block are bending or torsion that a sensor sees; a stator has many that none does
+        measured = len(setup.fitted) if isinstance(model.mesh, MirrorMesh) else None
+        full = part_model(model, typical, LOOK * top, sorted({order for order, _ in names}), measured)
         surface = _by_surface(setup, searched, full, error, settings.seed, workers, announce)
         starts = surface.starts(space)
         reduced = bases.around(surface.problem_over(space), starts)

@@ -27,6 +27,8 @@ from statorhom.model.radial_profile import radial_profile
 from statorhom.model.space import Profile, Space
 
 Eigenpairs = tuple[Space, np.ndarray, np.ndarray]  # a problem, its λ (k,) and coordinates (m, k) of unit mass
+# modes of a body that are asked for first, and of one combination of parities
+EXPECTED, LEAST = 24, 8
 
 
 @singledispatch
@@ -134,8 +136,11 @@ def _(
     def solved(space: Space) -> Eigenpairs:
         K_p, M_p = space.project(K), space.project(M)
         # what supernodes are made for: a block's matrices are larger and fuller than a half pitch's
-        return (space, *modes_below(K_p, M_p, highest_hz, most=most, back_end=sturdy))
+        return (space, *modes_below(K_p, M_p, highest_hz, expected, most, back_end=sturdy))
 
+    expected = max(LEAST, EXPECTED // mesh.copies)
+    if most is not None and most <= 2 * expected:
+        expected = most  # beginning anew costs more than some modes too many
     spaces = [space for order in orders for space in spaces_of(mesh, order)]
     # the limit holds for all threads: entered by each, one would lift another's
     with one_blas_thread(), ThreadPoolExecutor(max(1, jobs)) as pool:

@@ -1,12 +1,15 @@
 """A plate in its modal basis against whole meshes: lumps, springs, other dimensions, patches."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from concealed_coupons import CLOTH, SIZE, Hidden, plate_frequencies, whole_plate
 from statorhom.geometry.block import BlockGeometry
 from statorhom.mesh.block import block_mesh
-from statorhom.model.affine import assemble
+from statorhom.model.affine import Material, assemble
+from statorhom.model.modal import point_residual
 from statorhom.model.modal.acted_body import ActedBody
 from statorhom.model.modal.modal_body import modal_body
 from statorhom.physics.action import Attachment, Patch
@@ -78,3 +81,26 @@ def test_places_on_four_quarters_move_as_the_modes_are_mirrored(body: ActedBody)
     # twisting comes first: odd at both planes
     assert moved[1, 0] == pytest.approx(-moved[0, 0])
     assert moved[2, 0] == pytest.approx(-moved[0, 0])
+
+
+def test_a_body_of_like_materials_takes_its_local_shapes_from_the_other(body: ActedBody) -> None:
+    softer = {"plate": Material(replace(CLOTH.hooke, matrix=0.97 * CLOTH.hooke.matrix), CLOTH.density)}
+    own = ActedBody(body.model, softer, modal_body(body.model, [softer], TOP, counts=body.basis.counts))
+    lump = [Attachment((0.3, 0.2, SMALL[2]), 0.017)]
+    exact = own.modes(softer, 12, lump).values
+    near = replace(own, like=body)
+    assert len(near.residuals.plan) == len(body.residuals.plan)
+    np.testing.assert_allclose(near.modes(softer, 12, lump).values[6:], exact[6:], rtol=1e-5)
+
+
+def test_large_parts_have_their_local_shapes_at_fewer_points(
+    body: ActedBody, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    b = body.basis
+    whole = len(body.residuals.plan)
+    monkeypatch.setattr(point_residual, "WORK", 3 * len(b.mesh.nodes) * (whole // 2))
+    monkeypatch.setattr(point_residual, "LEAST", 4)
+    few = point_residual.point_residuals(body.model, MATERIALS, b.shapes, b.parities, b.highest_hz)
+    assert len(few.plan) == whole // 2
+    middle = np.array([[0.15, 0.1, SMALL[2]]])
+    np.testing.assert_allclose(few.at(middle)[0], body.residuals.at(middle)[0], rtol=0.1)

@@ -114,13 +114,18 @@ def _settled(found: BodyRefit) -> BodyRefit:
     return found
 
 
-def at_own_reference(found: BodyRefit, *, mesh_known: bool = False) -> BodyRefit:
-    """The same with a basis (and mesh errors, unless they are known) of its own materials, refitted."""
+def at_own_reference(found: BodyRefit, *, mesh_known: bool = False, near: bool = False) -> BodyRefit:
+    """The same with a basis (and mesh errors, unless they are known) of its own materials, refitted.
+
+    Parameters
+    ----------
+    near : see `with_reference`.
+    """
     hypothesis = found.hypothesis
     study, [stage] = hypothesis.study, hypothesis.study.stages
     values = study.constants.values(found.z[: hypothesis.constants])
     materials = study.materials(stage.setup, values, ())
-    moved = with_reference(stage, materials, mesh_known=mesh_known)
+    moved = with_reference(stage, materials, mesh_known=mesh_known, near=near)
     return refit(replace(hypothesis, study=study.with_stages((moved,)), held=None), found.z)
 
 
@@ -129,8 +134,8 @@ def _frequencies(found: BodyRefit) -> FloatArray:
 
 
 def sharpened_body(explanation: Explanation[BodyHypothesis]) -> Explanation[BodyHypothesis]:
-    """An explanation with a basis of its own materials; mesh errors hardly depend on them."""
+    """An explanation with a basis of its own materials; mesh errors and local shapes hardly depend on them."""
     try:
-        return replace(explanation, refit=at_own_reference(explanation.refit, mesh_known=True))
+        return replace(explanation, refit=at_own_reference(explanation.refit, mesh_known=True, near=True))
     except (StatorhomError, KeyError):
         return explanation

@@ -27,6 +27,7 @@ from statorhom.model.modal.modal_body import modal_body
 FloatArray = npt.NDArray[np.float64]
 
 SPARE = 4  # modes beyond the band that are predicted too
+MORE = 6  # modes of the finer mesh beyond the elastic ones of the coarser: rigid bodies, and what comes into the band
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,20 +149,27 @@ def _body(
     snapshots: Sequence[Materials],
     highest_hz: float,
     varied: frozenset[str],
+    counts: Mapping[int, int] | None = None,
 ) -> ActedBody:
-    return ActedBody(model, snapshots[0], modal_body(model, snapshots, highest_hz, varied))
+    return ActedBody(model, snapshots[0], modal_body(model, snapshots, highest_hz, varied, counts))
 
 
 def with_reference(
-    stage: BodyStage, materials: Materials, others: Sequence[Materials] = (), *, mesh_known: bool = False
+    stage: BodyStage, materials: Materials, *, mesh_known: bool = False, near: bool = False
 ) -> BodyStage:
-    """The stage at another reference, its basis good near other materials too.
+    """The stage at another reference.
 
     Parameters
     ----------
     mesh_known : the mesh's errors are those that were computed before.
+    near : the reference moves so little that local shapes, which take a solve for every point, stay what they were.
     """
-    body = _body(stage.body.model, [materials, *others], stage.body.basis.highest_hz, stage.varied)
+    before = stage.body
+    # local shapes are what the modes of a basis leave: of as many modes as there were
+    counts = before.basis.counts if near else None
+    body = _body(before.model, [materials], before.basis.highest_hz, stage.varied, counts)
+    if near:
+        body = replace(body, like=before)
     error = stage.error if mesh_known else _mesh_error(stage.series, body)
     return replace(stage, body=body, error=error, known=_of_reference(error, body), _projectors={})
 
@@ -169,8 +177,13 @@ def with_reference(
 def _mesh_error(series: MeshSeries, body: ActedBody) -> MeshError:
     """Errors of the mesh, from a finer one."""
     basis = body.basis
-    keys = _reference_keys(body)
-    finer = problem_at(series.models[1], body.reference).solve(basis.highest_hz)
+    keys = basis.keys
+    inside = [
+        key[2] for key, hz in zip(keys, basis.reference_hz, strict=True) if key and hz < basis.highest_hz
+    ]
+    finer = problem_at(series.models[1], body.reference).solve(
+        basis.highest_hz, most=max(inside, default=0) + 1 + MORE
+    )
     fine = mode_keys(finer.modes)
     coarse = {key: float(basis.reference_hz[i]) for i, key in enumerate(keys) if key is not None}
     limits = {
@@ -183,25 +196,10 @@ def _mesh_error(series: MeshSeries, body: ActedBody) -> MeshError:
 
 
 def _of_reference(found: MeshError, body: ActedBody) -> ReferenceModes:
-    error, keys = found.error, _reference_keys(body)
+    error, keys = found.error, body.basis.keys
     return ReferenceModes(
         np.array([0.0 if k is None else float(np.log(error.factor(k))) for k in keys]),
         np.array([0.0 if k is None else error.shared(k) for k in keys]),
         np.array([0.0 if k is None else own_sd(error, k) for k in keys]),
         np.array([0.0 if k is None else found.seen.get(k, 1.0) for k in keys]),
     )
-
-
-def _reference_keys(body: ActedBody) -> list[ModeKey | None]:
-    """Parity and rank of every mode of the reference; None of rigid bodies."""
-    basis = body.basis
-    parities = basis.parities[np.abs(basis.reference).argmax(axis=0)]
-    ranks: dict[int, int] = {}
-    found: list[ModeKey | None] = []
-    for parity, hz in zip(parities.tolist(), basis.reference_hz.tolist(), strict=True):
-        if hz == 0.0:
-            found.append(None)
-            continue
-        ranks[parity] = ranks.get(parity, -1) + 1
-        found.append((parity, 0, ranks[parity]))
-    return found

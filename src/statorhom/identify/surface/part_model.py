@@ -13,6 +13,7 @@ from statorhom.model.free_modes import FreeProblem, problem_at
 from statorhom.model.stator_mode import StatorMode
 
 MORE = 4  # modes of a problem beyond twice those at the typical material
+UNSEEN = 8  # modes of a problem beyond those measured in all: rigid bodies, and what a test may have missed
 
 
 @dataclass(frozen=True)
@@ -68,9 +69,22 @@ class PartModel:
 
 
 def part_model(
-    model: AffineModel[PartMesh], typical: Materials, highest_hz: float, orders: Sequence[int]
+    model: AffineModel[PartMesh],
+    typical: Materials,
+    highest_hz: float,
+    orders: Sequence[int],
+    measured: int | None = None,
 ) -> PartModel:
-    """Model whose modes cover the band at the typical material and all that moves into it elsewhere."""
+    """Model whose modes cover the band at the typical material and all that moves into it elsewhere.
+
+    Parameters
+    ----------
+    model, typical, highest_hz, orders : see `PartModel`.
+    measured : number of measured modes, where no problem need have many more; None where it may.
+    """
     solution = problem_at(model, typical).solve(highest_hz, orders)
     counts = [shape.shape[1] for shape in solution.shapes]
-    return PartModel(model, typical, highest_hz, tuple(orders), 2 * max(counts, default=1) + MORE)
+    most = 2 * max(counts, default=1) + MORE
+    if measured is not None:
+        most = min(most, measured + UNSEEN)
+    return PartModel(model, typical, highest_hz, tuple(orders), most)

@@ -63,16 +63,20 @@ class ActedBody:
     ----------
     model, reference : the body and the materials at which local shapes are computed.
     basis : its modal basis.
+    like : a body of so similar materials that its local shapes are this one's but for their size; None to compute them.
     """
 
     model: AffineModel[MirrorMesh]
     reference: Materials
     basis: ModalBody
+    like: ActedBody | None = None
 
     @cached_property
     def residuals(self) -> PointResiduals:
         """Local shapes of points."""
         b = self.basis
+        if self.like is not None:
+            return self.like.residuals.softened(b.yields_beside(self.like.basis))
         return point_residuals(self.model, self.reference, b.shapes, b.parities, b.highest_hz)
 
     @cached_property

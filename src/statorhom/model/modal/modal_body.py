@@ -16,6 +16,7 @@ from statorhom.mesh.mirror_mesh import MirrorMesh
 from statorhom.model.affine import AffineModel, Materials, hooke_coefficients
 from statorhom.model.assembly import HOOKE_ENTRIES
 from statorhom.model.back_ends.sturdy import sturdy
+from statorhom.model.convergence import ModeKey
 from statorhom.model.eigen import lowest_modes, modes_below
 from statorhom.model.modal.surface_motion import SurfaceMotion
 from statorhom.model.problems import orders_of, spaces_of
@@ -23,7 +24,7 @@ from statorhom.model.problems import orders_of, spaces_of
 FloatArray = npt.NDArray[np.float64]
 
 WIDE = 2.5  # how far the reference's modes reach beyond the band: lumps and springs bend what lies in it
-EXPECTED = 24  # modes that are asked for first
+EXPECTED = 72  # modes that are asked for first
 MOST = 120  # modes of the reference: local shapes of what is attached stand for the others
 LEAST = 15  # of one combination of parities
 NEAR = 1.3  # and those of other materials
@@ -66,6 +67,37 @@ class ModalBody:
     def rigid(self) -> int:
         """How many of the reference's modes are rigid bodies."""
         return int(np.count_nonzero(self.reference_hz == 0.0))
+
+    @cached_property
+    def keys(self) -> tuple[ModeKey | None, ...]:
+        """Parity and rank of every mode of the reference; None of rigid bodies."""
+        ranks: dict[int, int] = {}
+        found: list[ModeKey | None] = []
+        for parity, hz in zip(self._of_reference.tolist(), self.reference_hz.tolist(), strict=True):
+            if hz == 0.0:
+                found.append(None)
+                continue
+            ranks[parity] = ranks.get(parity, -1) + 1
+            found.append((parity, 0, ranks[parity]))
+        return tuple(found)
+
+    @property
+    def counts(self) -> dict[int, int]:
+        """Parity → how many modes of the reference have it."""
+        return dict(
+            zip(*(a.tolist() for a in np.unique(self._of_reference, return_counts=True)), strict=True)
+        )
+
+    @cached_property
+    def _of_reference(self) -> npt.NDArray[np.int_]:
+        """Parity of every mode of the reference."""
+        return self.parities[np.abs(self.reference).argmax(axis=0)]
+
+    def yields_beside(self, other: ModalBody) -> float:
+        """How much more the body yields than another of its mesh, as a mean of their elastic modes."""
+        count = min(len(self.reference_hz), len(other.reference_hz))
+        own, others = self.reference_hz[self.rigid : count], other.reference_hz[other.rigid : count]
+        return float(np.exp(2.0 * np.mean(np.log(others / own))))
 
     @cached_property
     def surface(self) -> SurfaceMotion:
@@ -160,6 +192,7 @@ def modal_body(
     snapshots: Sequence[Materials],
     highest_hz: float,
     varied: Collection[str] | None = None,
+    counts: Mapping[int, int] | None = None,
 ) -> ModalBody:
     """A basis of the modes at some materials; the first ones are the reference.
 
@@ -169,9 +202,11 @@ def modal_body(
     snapshots : materials near which the basis shall be good.
     highest_hz : end of the band.
     varied : regions whose stiffness is not always the reference's; None for all.
+    counts : parity → modes of the reference; None for all that may matter to what is attached.
     """
     orders = orders_of(model.mesh)
-    found = [_parity_basis(model, snapshots, highest_hz, order) for order in orders]
+    known = counts or {}
+    found = [_parity_basis(model, snapshots, highest_hz, order, known.get(order)) for order in orders]
     parities = np.repeat(orders, [vectors.shape[1] for vectors, _, _ in found])
     shapes = np.hstack([vectors for vectors, _, _ in found])
     reference = block_diag(*(own for _, own, _ in found))
@@ -193,7 +228,11 @@ def modal_body(
 
 
 def _parity_basis(
-    model: AffineModel[MirrorMesh], snapshots: Sequence[Materials], highest_hz: float, order: int
+    model: AffineModel[MirrorMesh],
+    snapshots: Sequence[Materials],
+    highest_hz: float,
+    order: int,
+    count: int | None,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Vectors (3 n, k) of unit mass at the reference, the reference's modes (k, m) in them and their frequencies."""
     M = model.mass_matrix(snapshots[0])
@@ -203,9 +242,11 @@ def _parity_basis(
         K_p, M_p = (
             space.project(m) for m in (model.stiffness_matrix(materials), model.mass_matrix(materials))
         )
-        if not found:
-            most = max(LEAST, MOST // len(orders_of(model.mesh)))
-            values, y = modes_below(K_p, M_p, WIDE * highest_hz, EXPECTED, most, back_end=sturdy)
+        if not found and count is not None:
+            values, y = lowest_modes(K_p, M_p, count, highest_hz, sturdy)
+        elif not found:
+            expected, most = (max(LEAST, n // model.mesh.copies) for n in (EXPECTED, MOST))
+            values, y = modes_below(K_p, M_p, WIDE * highest_hz, expected, most, back_end=sturdy)
         else:
             # as many as the reference has in the band, wherever they lie at these materials
             inside = int(np.count_nonzero(found[0][1] < (2 * np.pi * NEAR * highest_hz) ** 2))

@@ -7,7 +7,7 @@ that a lump or a spring anywhere takes its own local shapes with it (Rubin's res
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -23,7 +23,8 @@ from statorhom.model.problems import spaces_of
 
 FloatArray = npt.NDArray[np.float64]
 
-MOST = 160  # points at which it is computed
+LEAST, MOST = 30, 160  # points at which it is computed
+WORK = 2_000_000  # points times coordinates of the part: what a solve costs goes with its size
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +52,10 @@ class PointResiduals:
         found[outside] = self._nearest(image[outside, :2])
         return found[:, :3], found[:, 3:]
 
+    def softened(self, ratio: float) -> PointResiduals:
+        """Those of the same body of materials that yield more by a factor."""
+        return replace(self, yields=ratio * self.yields, inertia=ratio**2 * self.inertia)
+
     @cached_property
     def _inside(self) -> LinearNDInterpolator:
         return LinearNDInterpolator(self.plan, np.hstack([self.yields, self.inertia]), rescale=True)
@@ -77,7 +82,8 @@ def point_residuals(
     """
     mesh = model.mesh
     every = outer_nodes(mesh)
-    nodes = every[np.linspace(0, len(every) - 1, min(MOST, len(every))).round().astype(int)]
+    count = min(len(every), max(LEAST, min(MOST, WORK // (3 * len(mesh.nodes)))))
+    nodes = every[np.linspace(0, len(every) - 1, count).round().astype(int)]
     K, M = model.stiffness_matrix(materials), model.mass_matrix(materials)
     sigma = SHIFT * (2 * np.pi * highest_hz) ** 2  # rigid bodies are in the basis: small beside what is not
     yields, inertia = np.zeros((len(nodes), 3)), np.zeros((len(nodes), 3))
