@@ -7,6 +7,7 @@ import pytest
 
 from concealed_coupons import CLOTH, SIZE, Hidden, plate_frequencies, whole_plate
 from statorhom.geometry.block import BlockGeometry
+from statorhom.materials.orthotropic import Orthotropic
 from statorhom.mesh.block import block_mesh
 from statorhom.model.affine import Material, assemble
 from statorhom.model.modal import point_residual
@@ -104,3 +105,14 @@ def test_large_parts_have_their_local_shapes_at_fewer_points(
     assert len(few.plan) == whole // 2
     middle = np.array([[0.15, 0.1, SMALL[2]]])
     np.testing.assert_allclose(few.at(middle)[0], body.residuals.at(middle)[0], rtol=0.1)
+
+
+def test_a_basis_that_knows_other_materials_has_their_modes_without_solving_them(body: ActedBody) -> None:
+    soft = Orthotropic(35e9, 35e9, 11e9, 0.28, 0.3, 0.3, 11e9, 4.5e9, 4e9)
+    other = {"plate": Material(soft.hooke(), CLOTH.density)}
+    between = {"plate": Material(replace(soft, G_rt_pa=9e9).hooke(), CLOTH.density)}
+    wide = ActedBody(body.model, MATERIALS, modal_body(body.model, [MATERIALS, other], TOP))
+    for materials, allowed in ((other, 2e-4), (between, 1e-3)):
+        exact = ActedBody(body.model, materials, modal_body(body.model, [materials], TOP))
+        found, true = (b.modes(materials, 11).values[6:] for b in (wide, exact))
+        np.testing.assert_allclose(np.sqrt(found), np.sqrt(true), rtol=allowed)

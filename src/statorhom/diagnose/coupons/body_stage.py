@@ -18,11 +18,11 @@ from statorhom.identify.settings import Settings
 from statorhom.identify.stage_problem import SEEN
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.mesh.mirror_mesh import MirrorMesh
-from statorhom.model.affine import AffineModel, Materials
+from statorhom.model.affine import Materials
 from statorhom.model.convergence import ModeKey, extrapolate, mode_keys
 from statorhom.model.free_modes import problem_at
 from statorhom.model.modal.acted_body import ActedBody
-from statorhom.model.modal.modal_body import modal_body
+from statorhom.model.modal.modal_body import NEAR, modal_body
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -131,7 +131,9 @@ def body_stage(
     model = series.coarsest
     if not isinstance(model.mesh, MirrorMesh):
         raise IdentificationError(f"{setup.keys.name}: this body cannot be diagnosed yet")
-    body = _body(model, snapshots, top, varied)  # type: ignore[arg-type]
+    # materials are sought before anything is attached
+    basis = modal_body(model, snapshots, top, varied, reach=NEAR)  # type: ignore[arg-type]
+    body = ActedBody(model, snapshots[0], basis)  # type: ignore[arg-type]
     zeros = np.zeros(len(body.basis.reference_hz))
     return BodyStage(
         setup,
@@ -142,16 +144,6 @@ def body_stage(
         MeshError(),
         ReferenceModes(zeros, zeros, zeros, zeros + 1.0),
     )
-
-
-def _body(
-    model: AffineModel[MirrorMesh],
-    snapshots: Sequence[Materials],
-    highest_hz: float,
-    varied: frozenset[str],
-    counts: Mapping[int, int] | None = None,
-) -> ActedBody:
-    return ActedBody(model, snapshots[0], modal_body(model, snapshots, highest_hz, varied, counts))
 
 
 def with_reference(
@@ -167,9 +159,8 @@ def with_reference(
     before = stage.body
     # local shapes are what the modes of a basis leave: of as many modes as there were
     counts = before.basis.counts if near else None
-    body = _body(before.model, [materials], before.basis.highest_hz, stage.varied, counts)
-    if near:
-        body = replace(body, like=before)
+    basis = modal_body(before.model, [materials], before.basis.highest_hz, stage.varied, counts)
+    body = ActedBody(before.model, materials, basis, before if near else None)
     error = stage.error if mesh_known else _mesh_error(stage.series, body)
     return replace(stage, body=body, error=error, known=_of_reference(error, body), _projectors={})
 

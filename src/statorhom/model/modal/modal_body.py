@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -17,7 +17,7 @@ from statorhom.model.affine import AffineModel, Materials, hooke_coefficients
 from statorhom.model.assembly import HOOKE_ENTRIES
 from statorhom.model.back_ends.sturdy import sturdy
 from statorhom.model.convergence import ModeKey
-from statorhom.model.eigen import lowest_modes, modes_below
+from statorhom.model.eigen import Solve, lowest_modes, modes_below
 from statorhom.model.modal.surface_motion import SurfaceMotion
 from statorhom.model.problems import orders_of, spaces_of
 
@@ -27,7 +27,8 @@ WIDE = 2.5  # how far the reference's modes reach beyond the band: lumps and spr
 EXPECTED = 72  # modes that are asked for first
 MOST = 120  # modes of the reference: local shapes of what is attached stand for the others
 LEAST = 15  # of one combination of parities
-NEAR = 1.3  # and those of other materials
+STEPS = 2  # of the modes towards those of other materials
+NEAR = 1.3  # and those of other materials, and where nothing is attached yet
 INDEPENDENT = 1e-5  # relative length below which a vector adds nothing to the basis
 RIGID = 1e-3  # of the band's end: rigid bodies' frequencies are rounding
 
@@ -193,6 +194,7 @@ def modal_body(
     highest_hz: float,
     varied: Collection[str] | None = None,
     counts: Mapping[int, int] | None = None,
+    reach: float = WIDE,
 ) -> ModalBody:
     """A basis of the modes at some materials; the first ones are the reference.
 
@@ -202,11 +204,12 @@ def modal_body(
     snapshots : materials near which the basis shall be good.
     highest_hz : end of the band.
     varied : regions whose stiffness is not always the reference's; None for all.
-    counts : parity → modes of the reference; None for all that may matter to what is attached.
+    counts : parity → modes of the reference; None for all up to `reach`.
+    reach : how far the reference's modes reach beyond the band.
     """
     orders = orders_of(model.mesh)
     known = counts or {}
-    found = [_parity_basis(model, snapshots, highest_hz, order, known.get(order)) for order in orders]
+    found = [_parity_basis(model, snapshots, highest_hz, order, known.get(order), reach) for order in orders]
     parities = np.repeat(orders, [vectors.shape[1] for vectors, _, _ in found])
     shapes = np.hstack([vectors for vectors, _, _ in found])
     reference = block_diag(*(own for _, own, _ in found))
@@ -233,34 +236,43 @@ def _parity_basis(
     highest_hz: float,
     order: int,
     count: int | None,
+    reach: float,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Vectors (3 n, k) of unit mass at the reference, the reference's modes (k, m) in them and their frequencies."""
-    M = model.mass_matrix(snapshots[0])
-    found: list[tuple[FloatArray, FloatArray]] = []
     [space] = spaces_of(model.mesh, order)
-    for materials in snapshots:
-        K_p, M_p = (
-            space.project(m) for m in (model.stiffness_matrix(materials), model.mass_matrix(materials))
-        )
-        if not found and count is not None:
-            values, y = lowest_modes(K_p, M_p, count, highest_hz, sturdy)
-        elif not found:
-            expected, most = (max(LEAST, n // model.mesh.copies) for n in (EXPECTED, MOST))
-            values, y = modes_below(K_p, M_p, WIDE * highest_hz, expected, most, back_end=sturdy)
-        else:
-            # as many as the reference has in the band, wherever they lie at these materials
-            inside = int(np.count_nonzero(found[0][1] < (2 * np.pi * NEAR * highest_hz) ** 2))
-            values, y = lowest_modes(K_p, M_p, inside + 1, highest_hz, sturdy)
-        found.append((space.expand(y) / np.sqrt(space.copies), values))
-    copies = model.mesh.copies
-    first, values = found[0]
+    whole_mass = model.mass_matrix(snapshots[0])
+    K, M = (space.project(m) for m in (model.stiffness_matrix(snapshots[0]), whole_mass))
+    solvers: list[Solve] = []
+
+    def back_end(matrix: sp.csr_array) -> Solve:
+        solvers.append(sturdy(matrix))
+        return solvers[-1]
+
+    if count is not None:
+        values, y = lowest_modes(K, M, count, highest_hz, back_end)
+    else:
+        asked, most = (max(LEAST, n // model.mesh.copies) for n in (EXPECTED, MOST))
+        expected = max(LEAST, round(asked * reach / WIDE))
+        values, y = modes_below(K, M, reach * highest_hz, expected, most, back_end=back_end)
     hz = np.sqrt(np.maximum(values, 0.0)) / (2 * np.pi)
     hz[hz < RIGID * highest_hz] = 0.0
-    basis = first
-    for vectors, _ in found[1:]:
-        basis = _extended(basis, vectors, copies * M)
-    reference = np.eye(basis.shape[1])[:, : first.shape[1]]
-    return basis, reference, hz
+    moved = y[:, (hz > 0.0) & (hz < NEAR * highest_hz)]
+    basis = space.expand(y) / np.sqrt(space.copies)
+    for materials in snapshots[1:]:
+        for vectors in _bent(solvers[-1], space.project(model.stiffness_matrix(materials)), M, moved):
+            basis = _extended(basis, space.expand(vectors), model.mesh.copies * whole_mass)
+    return basis, np.eye(basis.shape[1])[:, : y.shape[1]], hz
+
+
+def _bent(solve: Solve, K: sp.csr_array, M: sp.csr_array, modes: FloatArray) -> Iterator[FloatArray]:
+    """What another stiffness makes of modes, step by step: forces that bend it so bend the reference otherwise.
+
+    Exact to the order of the difference that is the number of steps, and without a factorization for every stiffness.
+    """
+    for _ in range(STEPS if modes.size else 0):
+        modes = solve(K @ modes)
+        modes = modes / np.sqrt(np.einsum("ij,ij->j", modes, M @ modes))
+        yield modes
 
 
 def _extended(basis: FloatArray, vectors: FloatArray, M: sp.csr_array) -> FloatArray:
