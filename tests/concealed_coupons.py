@@ -5,21 +5,28 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from pathlib import Path
 
 import numpy as np
 import scipy.sparse as sp
 
+from roving_sensor import loaded_accelerance
 from statorhom.geometry.block import BlockGeometry
 from statorhom.materials.orthotropic import Orthotropic
 from statorhom.mesh.block import block_mesh
 from statorhom.model.affine import Material
 from statorhom.model.frames import cartesian
 from statorhom.model.general.general_model import GeneralModel, general_model
+from statorhom.recordings.dof import Dof
+from statorhom.recordings.frf_set import FrfSet
+from statorhom.recordings.recording import Node, Recording
+from statorhom.recordings.uff.writer import write_uff
 
 Size = tuple[float, float, float]
 SIZE: Size = (0.3, 0.2, 0.004)
 CLOTH = Material(Orthotropic(60e9, 22e9, 11e9, 0.28, 0.3, 0.3, 7e9, 4.5e9, 4e9).hooke(), 1600.0)
 RIGID_HZ = 20.0
+LOSS, GRID = 0.006, (7, 5)  # of recordings: loss factor, points along and across
 
 
 @dataclass(frozen=True)
@@ -59,3 +66,27 @@ def plate_frequencies(
     changed = model.with_added(sp.diags_array(stiffness), sp.diags_array(mass))
     found = changed.solve(highest_hz, {"plate": material}).frequencies_hz
     return found[found > RIGID_HZ], nodes
+
+
+def plate_recording(path: Path, lines: np.ndarray, sensor_kg: float, *, factor: float, noise: float) -> None:
+    """FRFs (universal file) of a roving accelerometer with a mass on the upper face, hammer at a corner."""
+    model = whole_plate(SIZE, factor)
+    found = model.solve(1.6 * float(lines[-1]), {"plate": CLOTH})
+    grid = [(x, y) for x in np.linspace(0.0, SIZE[0], GRID[0]) for y in np.linspace(0.0, SIZE[1], GRID[1])]
+    nodes = [int(np.argmin(np.linalg.norm(model.mesh.nodes - [*at, SIZE[2]], axis=1))) for at in grid]
+    shapes = found.vectors.T.reshape(len(found.eigenvalues), -1, 3)[:, nodes]
+    moved = shapes[..., [2, 0, 1]]
+    poles = [(max(f, 1.0), LOSS) for f in found.frequencies_hz.tolist()]
+    exact = loaded_accelerance(lines, poles, moved, moved[:, -1, 0], sensor_kg)
+    points = [
+        Dof(i + 1, tuple(model.mesh.nodes[n].tolist()), (0.0, 0.0, 1.0))  # type: ignore[arg-type]
+        for i, n in enumerate(nodes)
+    ]
+    rng = np.random.default_rng(5)
+    normal = rng.normal(size=(2, *exact.shape)) / np.sqrt(2)
+    sd = np.hypot(noise * np.abs(exact), 3e-4 * np.abs(exact).max())
+    frfs = FrfSet(
+        lines, tuple(points), (points[-1],) * len(points), exact + sd * (normal[0] + 1j * normal[1])
+    )
+    places = tuple(Node(p.node, p.position) for p in points if p.position is not None)
+    write_uff(path, Recording("plate", frf_sets=(frfs,), nodes=places))

@@ -22,14 +22,15 @@ from statorhom.results.diagnosis import Diagnosis
 from statorhom.study.wing_file import LUMPS
 from synthetic_frfs import frf_set
 
-FINER = 2.0  # of the truth's mesh over the fitting mesh, in cells along chord and span
+FINER = 1.75  # of the truth's mesh over the fitting mesh, in cells along chord and span
 LINES = np.arange(25.0, 190.0, 0.1)
-BEYOND = 1.6  # of the band: modes that the FRFs hold too
+BEYOND = 1.3  # of the band: modes that the FRFs hold too
 LOSS = 0.01
 RIGID_HZ = 1.5  # of the wing on its cords
 SPAN_POINTS, CHORD_POINTS = (0.03, 0.2, 0.37, 0.54, 0.71, 0.86, 0.97), (0.05, 0.45, 0.95)
 UP = (0.0, 0.0, 1.0)
-FINS = (Lump("fin", 0.060, 0.66, 0.85),)  # one each side
+# one each side, where the rear spar meets the rib of the tip: on bare skin they would swing by themselves
+FINS = (Lump("fin", 0.060, 0.638, 0.945),)
 
 
 @dataclass(frozen=True, eq=False)

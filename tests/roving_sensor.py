@@ -51,14 +51,26 @@ def loaded_frfs(points: list[Dof], mass_kg: float = MASS_KG, noise: float = 0.00
     """x_k = h_kj F + H_kk ω² m x_k for a sensor of mass m at point k, x_k in three directions; no residual terms."""
     poles, modes = shapes(points)
     bare = frf_set(LINES, points, [0], poles, modes, residuals=(0.0, 0.0))
-    squared = (2 * np.pi * LINES) ** 2
-    moved = directions(points)
-    curves = np.array([1 / ((2 * np.pi * f) ** 2 * (1 + 1j * loss) - squared) for f, loss in poles])
-    force = np.einsum("mkd,m,ml->kld", moved, modes[:, 0], curves)
-    own = np.einsum("mkd,mke,ml->klde", moved, moved, curves)
-    motion = np.linalg.solve(np.eye(3) - mass_kg * squared[:, None, None] * own, force[..., None])[..., 0, 0]
-    loaded = -squared * motion
+    loaded = loaded_accelerance(LINES, poles, directions(points), modes[:, 0], mass_kg)
     rng = np.random.default_rng(3)
     normal = rng.normal(size=(2, *loaded.shape)) / np.sqrt(2)
     sd = np.hypot(noise * np.abs(loaded), 3e-4 * np.abs(loaded).max())
     return replace(bare, accelerance=loaded + sd * (normal[0] + 1j * normal[1]))
+
+
+def loaded_accelerance(
+    lines: np.ndarray, poles: list[tuple[float, float]], moved: np.ndarray, hammer: np.ndarray, mass_kg: float
+) -> np.ndarray:
+    """(points, lines) at a sensor that is moved in all directions; what it measures is the first one.
+
+    Parameters
+    ----------
+    moved : (modes, points, 3) shapes of unit modal mass.
+    hammer : (modes,) of the hammer's point, in its direction.
+    """
+    squared = (2 * np.pi * lines) ** 2
+    curves = np.array([1 / ((2 * np.pi * f) ** 2 * (1 + 1j * loss) - squared) for f, loss in poles])
+    force = np.einsum("mkd,m,ml->kld", moved, hammer, curves)
+    own = np.einsum("mkd,mke,ml->klde", moved, moved, curves)
+    motion = np.linalg.solve(np.eye(3) - mass_kg * squared[:, None, None] * own, force[..., None])
+    return np.asarray(-squared * motion[..., 0, 0])

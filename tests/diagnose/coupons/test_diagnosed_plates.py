@@ -6,18 +6,34 @@ import numpy as np
 import pytest
 from body_studies import MASS_KG, write_plate
 
-from concealed_coupons import Hidden, plate_frequencies
+from concealed_coupons import CLOTH, SIZE, Hidden, plate_frequencies, plate_recording
 from statorhom import Study
+from statorhom.model.affine import Material
 from statorhom.results.diagnosis import Diagnosis, Estimated, PlanLocation
 
 pytestmark = pytest.mark.slow
 MODES, TOP = 15, 2000.0
+LINES = np.arange(100.0, 1000.0, 0.5)
 
 
 def diagnosed(folder: Path, hidden: list[Hidden]) -> tuple[Diagnosis, list[tuple[float, float]]]:
     frequencies, places = plate_frequencies(TOP, hidden, factor=1.3)
     study = write_plate(folder, frequencies[frequencies > 120.0][:MODES])
     return Study.load(study).diagnose(folder / "out"), places
+
+
+KNOWN = """\
+[stages.identify.fixed.plate]
+E_1_pa = 60e9
+E_2_pa = 22e9
+E_3_pa = 11e9
+nu_12 = 0.28
+nu_13 = 0.3
+nu_23 = 0.3
+G_12_pa = 7e9
+G_13_pa = 4.5e9
+G_23_pa = 4e9
+"""
 
 
 def test_an_even_plate_lacks_nothing(tmp_path: Path) -> None:
@@ -43,3 +59,44 @@ def test_a_lump_is_named_with_its_mass_and_its_mirrored_places(tmp_path: Path) -
     assert nearest < 3.0
     assert found.fit.after.rms_percent < 0.2 * found.fit.before.rms_percent
     assert "equally possible" in (tmp_path / "out" / "report.html").read_text()
+
+
+def test_a_stiff_suspension_is_named_with_its_stiffness(tmp_path: Path) -> None:
+    half = Hidden(0.09, 0.05, stiffness=6e3), Hidden(0.21, 0.05, stiffness=6e3)
+    found, _ = diagnosed(tmp_path, list(half))
+    assert found.verdict == "named"
+    [effect] = found.effects
+    assert effect.effect == "suspension_stiffness"
+    stiffness = effect.parameters["stiffness_n_per_m"]
+    assert isinstance(stiffness, Estimated)
+    assert stiffness.ci90 is not None
+    assert stiffness.ci90[0] < 12e3 < stiffness.ci90[1]
+
+
+def test_a_wrong_thickness_of_a_plate_of_known_material_is_a_wrong_input(tmp_path: Path) -> None:
+    thicker = 1.04
+    size = (SIZE[0], SIZE[1], thicker * SIZE[2])
+    # of the weight that was found
+    material = Material(CLOTH.hooke, CLOTH.density / thicker)
+    frequencies, _ = plate_frequencies(TOP, material=material, size=size, factor=1.3)
+    study = write_plate(tmp_path, frequencies[:MODES], identify=KNOWN)
+    found = Study.load(study).diagnose(tmp_path / "out")
+    assert found.verdict == "named"
+    [effect] = found.effects
+    assert effect.effect == "wrong_input"
+    assert found.fit.after.rms_percent < 0.1 * found.fit.before.rms_percent
+
+
+def test_a_heavy_roving_accelerometer_is_named_with_its_mass(tmp_path: Path) -> None:
+    mass = 0.008
+    plate_recording(tmp_path / "free.uff", LINES, mass, factor=1.3, noise=3e-3)
+    study = write_plate(tmp_path, np.array([1.0]))
+    study.write_text(study.read_text().replace('modal_table = "free.csv"', 'frf = "free.uff"'))
+    found = Study.load(study).diagnose(tmp_path / "out")
+    assert found.verdict == "named"
+    [effect] = found.effects
+    assert effect.effect == "sensor_mass"
+    size = effect.parameters["mass_kg"]
+    assert isinstance(size, Estimated)
+    assert size.ci90 is not None
+    assert size.ci90[0] < mass < size.ci90[1]

@@ -293,7 +293,7 @@ def _projected(
     varied: Collection[str],
 ) -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
     """Terms of stiffness and mass of the whole body; different parities do not couple."""
-    same = parities[:, None] == parities[None, :]
+    groups = [np.flatnonzero(parities == parity) for parity in np.unique(parities)]
     copies = model.mesh.copies
     stiffness, mass = {}, {}
     for region in model.stiffness:
@@ -301,14 +301,24 @@ def _projected(
             parts = (model.stiffness_term(region, q) for q in range(len(HOOKE_ENTRIES)))
         else:
             parts = (K for K in [model.region_stiffness(region, reference[region])])
-        terms = [shapes.T @ (K @ shapes) for K in parts]
-        stiffness[region] = copies * np.where(same, np.stack(terms), 0.0)
+        stiffness[region] = copies * np.stack([_between(groups, _own_places(K), shapes) for K in parts])
     for region in model.mass:
-        M = model.mass_term(region)
-        along = []
-        for axis in range(3):
-            part = np.zeros_like(shapes)
-            part[axis::3] = shapes[axis::3]
-            along.append(part.T @ (M @ part))
-        mass[region] = copies * np.where(same, np.stack(along), 0.0)
+        # the same along all axes
+        M = _own_places(sp.csr_array(model.mass_term(region)[::3, ::3]))
+        mass[region] = copies * np.stack([_between(groups, M, shapes[axis::3]) for axis in range(3)])
     return stiffness, mass
+
+
+def _own_places(matrix: sp.csr_array) -> sp.csr_array:
+    """A region's matrix without the places that other regions have in the body's."""
+    matrix.eliminate_zeros()
+    return matrix
+
+
+def _between(groups: Sequence[npt.NDArray[np.int_]], matrix: sp.csr_array, shapes: FloatArray) -> FloatArray:
+    """A matrix between shapes (k, k), 0 between those of different groups."""
+    found = np.zeros((shapes.shape[1], shapes.shape[1]))
+    for own in groups:
+        vectors = np.ascontiguousarray(shapes[:, own])
+        found[np.ix_(own, own)] = vectors.T @ (matrix @ vectors)
+    return found
