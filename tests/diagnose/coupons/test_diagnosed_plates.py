@@ -1,5 +1,6 @@
 """Whole diagnoses of plates whose truth is a finer whole mesh: what is named, where, and how large."""
 
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -16,24 +17,25 @@ MODES, TOP = 15, 2000.0
 LINES = np.arange(100.0, 1000.0, 0.5)
 
 
-def diagnosed(folder: Path, hidden: list[Hidden]) -> tuple[Diagnosis, list[tuple[float, float]]]:
+def diagnosed(
+    folder: Path, hidden: list[Hidden], *, identify: str = "", apply: bool = False
+) -> tuple[Diagnosis, list[tuple[float, float]]]:
     frequencies, places = plate_frequencies(TOP, hidden, factor=1.3)
-    study = write_plate(folder, frequencies[frequencies > 120.0][:MODES])
-    return Study.load(study).diagnose(folder / "out"), places
+    study = write_plate(folder, frequencies[frequencies > 120.0][:MODES], identify=identify)
+    return Study.load(study).diagnose(folder / "out", apply=apply), places
 
 
-KNOWN = """\
+TRUE = {"E_1_pa": 60e9, "E_2_pa": 22e9, "G_12_pa": 7e9}
+NARROW = """\
 [stages.identify.fixed.plate]
-E_1_pa = 60e9
-E_2_pa = 22e9
 E_3_pa = 11e9
 nu_12 = 0.28
 nu_13 = 0.3
 nu_23 = 0.3
-G_12_pa = 7e9
 G_13_pa = 4.5e9
 G_23_pa = 4e9
 """
+KNOWN = NARROW + "".join(f"{name} = {value!r}\n" for name, value in TRUE.items())
 
 
 def test_an_even_plate_lacks_nothing(tmp_path: Path) -> None:
@@ -59,6 +61,21 @@ def test_a_lump_is_named_with_its_mass_and_its_mirrored_places(tmp_path: Path) -
     assert nearest < 3.0
     assert found.fit.after.rms_percent < 0.2 * found.fit.before.rms_percent
     assert "equally possible" in (tmp_path / "out" / "report.html").read_text()
+
+
+def test_a_named_lump_is_applied_and_the_plate_identified_with_it(tmp_path: Path) -> None:
+    lump = Hidden(0.22, 0.13, mass_kg=0.025 * MASS_KG)
+    diagnosed(tmp_path, [lump], identify="evaluations = 400\n" + NARROW, apply=True)
+    out = tmp_path / "out"
+    [stage] = tomllib.loads((out / "study.toml").read_text(encoding="utf-8"))["stages"]
+    [effect] = stage["effects"]
+    assert effect["effect"] == "attached_mass"
+    assert {"mass_kg", "x_mm", "y_mm"} <= set(effect)
+    errors = []
+    for folder in (out, out / "amended"):
+        found = Study.read(folder).stages[0].regions["plate"].engineering
+        errors.append(max(abs(found[name].value / true - 1) for name, true in TRUE.items()))
+    assert errors[1] < min(0.02, 0.5 * errors[0])
 
 
 def test_a_stiff_suspension_is_named_with_its_stiffness(tmp_path: Path) -> None:

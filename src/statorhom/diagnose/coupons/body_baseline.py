@@ -23,6 +23,7 @@ from statorhom.geometry.tested_object import ObjectGeometry
 from statorhom.identify.settings import Settings
 from statorhom.identify.stage_setup import StageSetup, stage_setup
 from statorhom.model.affine import Materials
+from statorhom.model.modal.modal_body import NEAR, WIDE
 from statorhom.physics.declared import declared_effects
 from statorhom.physics.plan import plan_of
 from statorhom.study.message import input_error
@@ -33,6 +34,8 @@ FloatArray = npt.NDArray[np.float64]
 BodyRefit = Refit[BodyHypothesis]
 
 ROUNDS = 4
+PART = 0.1  # of the errors that are left anyway: a basis need not be better
+SAME = 1e-3  # relative: materials so near to the reference need no basis of their own
 
 
 def body_baseline(
@@ -105,28 +108,59 @@ def _snapshots(
 
 
 def _settled(found: BodyRefit) -> BodyRefit:
-    """Refitted with a basis of its own until that moves no frequency any more."""
+    """Refitted with a basis of its own until that moves no frequency any more; then with one for attachments too.
+
+    What is left out draws the constants away: the last basis knows the materials from which the search began as well.
+    """
+    [begun] = found.hypothesis.study.stages
     for number in range(ROUNDS):
         before = _frequencies(found)
-        found = at_own_reference(found, mesh_known=number > 0)
-        if np.abs(_frequencies(found) - before).max() < SAME_HZ:
+        found = at_own_reference(found, mesh_known=number > 0, reach=NEAR)
+        step = float(np.abs(_frequencies(found) - before).max())
+        if step < max(SAME_HZ, PART * _missed_rms(found)):
             break
-    return found
+    return at_own_reference(found, [begun.body.reference], mesh_known=True)
 
 
-def at_own_reference(found: BodyRefit, *, mesh_known: bool = False, near: bool = False) -> BodyRefit:
+def at_own_reference(
+    found: BodyRefit,
+    others: Sequence[Materials] = (),
+    *,
+    mesh_known: bool = False,
+    near: bool = False,
+    reach: float = WIDE,
+) -> BodyRefit:
     """The same with a basis (and mesh errors, unless they are known) of its own materials, refitted.
 
     Parameters
     ----------
-    near : see `with_reference`.
+    others, near, reach : see `with_reference`.
     """
     hypothesis = found.hypothesis
     study, [stage] = hypothesis.study, hypothesis.study.stages
     values = study.constants.values(found.z[: hypothesis.constants])
     materials = study.materials(stage.setup, values, ())
-    moved = with_reference(stage, materials, mesh_known=mesh_known, near=near)
+    if near and _same(materials, stage.body.reference):
+        return found
+    moved = with_reference(stage, materials, others, mesh_known=mesh_known, near=near, reach=reach)
     return refit(replace(hypothesis, study=study.with_stages((moved,)), held=None), found.z)
+
+
+def _same(materials: Materials, reference: Materials) -> bool:
+    """Whether a basis of its own would add nothing."""
+    return all(
+        np.abs(one.hooke.matrix - reference[region].hooke.matrix).max()
+        < SAME * np.abs(one.hooke.matrix).max()
+        and abs(one.density / reference[region].density - 1.0) < SAME
+        for region, one in materials.items()
+    )
+
+
+def _missed_rms(found: BodyRefit) -> float:
+    """Of ln f, what the declared model leaves."""
+    features = found.hypothesis.features(found.z)
+    missed = [f.measured - f.predicted for f in features if f.kind == "frequency" and not f.lost]
+    return float(np.sqrt(np.mean(np.square(missed)))) if missed else 0.0
 
 
 def _frequencies(found: BodyRefit) -> FloatArray:

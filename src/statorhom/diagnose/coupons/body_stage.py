@@ -22,7 +22,7 @@ from statorhom.model.affine import Materials
 from statorhom.model.convergence import ModeKey, extrapolate, mode_keys
 from statorhom.model.free_modes import problem_at
 from statorhom.model.modal.acted_body import ActedBody
-from statorhom.model.modal.modal_body import NEAR, modal_body
+from statorhom.model.modal.modal_body import NEAR, WIDE, modal_body
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -147,19 +147,29 @@ def body_stage(
 
 
 def with_reference(
-    stage: BodyStage, materials: Materials, *, mesh_known: bool = False, near: bool = False
+    stage: BodyStage,
+    materials: Materials,
+    others: Sequence[Materials] = (),
+    *,
+    mesh_known: bool = False,
+    near: bool = False,
+    reach: float = WIDE,
 ) -> BodyStage:
     """The stage at another reference.
 
     Parameters
     ----------
+    others : materials near which the basis shall be good too.
     mesh_known : the mesh's errors are those that were computed before.
     near : the reference moves so little that local shapes, which take a solve for every point, stay what they were.
+    reach : of the basis beyond the band; `NEAR` where nothing will be attached.
     """
     before = stage.body
     # local shapes are what the modes of a basis leave: of as many modes as there were
     counts = before.basis.counts if near else None
-    basis = modal_body(before.model, [materials], before.basis.highest_hz, stage.varied, counts)
+    basis = modal_body(
+        before.model, [materials, *others], before.basis.highest_hz, stage.varied, counts, reach
+    )
     body = ActedBody(before.model, materials, basis, before if near else None)
     error = stage.error if mesh_known else _mesh_error(stage.series, body)
     return replace(stage, body=body, error=error, known=_of_reference(error, body), _projectors={})
