@@ -24,6 +24,7 @@ _Z90 = 1.6448536269514722
 # typical loss factors (5 %, 95 %): bare steel and what is joined to it; wires, dry or in resin
 STEEL_LOSS, WINDING_LOSS = (5e-4, 2e-2), (2e-3, 1e-1)
 LOSS_LIMITS = (1e-6, 2.0)
+FIXED = 1e-9  # relative standard deviation of what the study prescribes
 
 
 @dataclass(frozen=True)
@@ -50,6 +51,11 @@ class Constant:
         step = self.sd * internal
         value = self.median * math.exp(step) if self.log else self.median + step
         return min(max(value, self.lower), self.upper)
+
+    @property
+    def fixed(self) -> bool:
+        """Whether the study prescribes it."""
+        return not self.log and self.sd <= 2 * FIXED * (abs(self.median) or 1.0)
 
     @property
     def limits(self) -> tuple[float, float]:
@@ -105,7 +111,7 @@ def new_constants(constants: Constants, setup: StageSetup) -> list[int]:
     return [
         i
         for i, c in enumerate(constants.items)
-        if c.name.startswith(prefix) and "." in c.name and c.sd > 1e-6
+        if c.name.startswith(prefix) and "." in c.name and not c.fixed
     ]
 
 
@@ -168,7 +174,7 @@ def _loss(name: str, source: str) -> Constant:
 
 def _constant(name: str, p: Parameter) -> Constant:
     if p.fixed:
-        return Constant(name, p.median, 1e-9 * (abs(p.median) or 1.0), -np.inf, np.inf)
+        return Constant(name, p.median, FIXED * (abs(p.median) or 1.0), -np.inf, np.inf)
     log = p.scale == "log"
     low, high = (np.log(v) if log else v for v in (p.low90, p.high90))
     return Constant(name, p.median, float(high - low) / (2 * _Z90), p.lower, p.upper, log)

@@ -1,15 +1,20 @@
 """A plate's residuals: slopes, pairing with and without shapes, and what a lump does to them."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
-from body_studies import plate_hypothesis
+from body_studies import plate_hypothesis, write_plate
 
+from statorhom.diagnose.constants import new_constants, study_constants
 from statorhom.diagnose.coupons.body_hypothesis import BodyHypothesis
 from statorhom.diagnose.derivatives import difference, jacobian
 from statorhom.diagnose.measured import MeasuredPoints
+from statorhom.geometry.tested_object import object_geometry
+from statorhom.identify.stage_setup import stage_setup
 from statorhom.physics.library import all_candidates
+from statorhom.study.study import load_study
 
 FREQUENCIES = np.array([146.7, 277.9, 387.2, 407.7, 481.4])
 GRID = np.array([[x, y, 0.004] for x in np.linspace(0.02, 0.28, 6) for y in np.linspace(0.02, 0.18, 4)])
@@ -111,3 +116,15 @@ def test_a_wrong_weight_is_no_other_frequency_than_a_softer_plate(plain: BodyHyp
     together = J[:, moduli] @ (1 / sd)  # d residuals / d ln E
     relative = plain.study.constants.items[names.index("plate:mass_kg")]
     np.testing.assert_allclose(together, -weight * relative.median / relative.sd, rtol=1e-3)
+
+
+def test_prescribed_constants_are_not_sought(tmp_path: Path) -> None:
+    known = "[stages.identify.fixed.plate]\nE_3_pa = 11e9\nnu_12 = 0.28\nG_13_pa = 4.5e9\n"
+    files = load_study(write_plate(tmp_path, FREQUENCIES, identify=known))
+    setup = stage_setup(files, object_geometry(files.drawing, files.geometry_path), 0)
+    constants = study_constants([setup], (), 0.0)
+    sought = {constants.names[i].partition(".")[2] for i in new_constants(constants, setup)}
+    assert sought == {"E_1_pa", "E_2_pa", "nu_13", "nu_23", "G_12_pa", "G_23_pa"}
+    assert {i.name for i in constants.items if i.fixed} == {
+        f"plate:plate.{name}" for name in ("E_3_pa", "nu_12", "G_13_pa")
+    }

@@ -35,7 +35,11 @@ def _(h: BodyHypothesis, z: FloatArray) -> FloatArray:
     start = [f for f in h.features_told(z, told) if h.sees(f)]
     scale = h.study.scale(h.actions(z))
     terms = {name: _Terms(stage.body.basis, told[name], scale) for stage, name in h.tests}
-    columns = [_constant_column(h, z, j, told, terms, start) for j in range(h.constants)]
+    columns = [
+        # a wing's known materials are most of its constants
+        np.zeros(len(start)) if item.fixed else _constant_column(h, z, j, told, terms, start)
+        for j, item in enumerate(h.study.constants.items)
+    ]
     columns += [difference(h, z, j, start) for j in range(h.constants, len(z))]
     return np.array(columns).T.reshape(len(start), len(z))
 

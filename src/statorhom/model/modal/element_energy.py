@@ -24,21 +24,24 @@ class ElementEnergy:
     Parameters
     ----------
     centres : (copies, m, 3) of the elements in the whole body.
-    energy : (m, k, k) of one copy.
-    signs : (copies, k, k) of every copy's energy, by the parities of both vectors.
+    energy : (m, k (k + 1) / 2) of one copy: upper triangles, row by row.
+    signs : (copies, k (k + 1) / 2) of every copy's energy, by the parities of both vectors.
+    size : k.
     """
 
     centres: FloatArray
     energy: FloatArray
     signs: FloatArray
+    size: int
 
     def weighted(self, weight: Callable[[FloatArray], FloatArray]) -> FloatArray:
         """Sum (k, k) of all elements' energies times a function of their centres (m, 3)."""
-        k = self.energy.shape[1]
-        flat = self.energy.reshape(len(self.energy), -1)
-        found = np.zeros((k, k))
-        for centres, signs in zip(self.centres, self.signs, strict=True):
-            found += signs * (weight(centres) @ flat).reshape(k, k)
+        weights = np.stack([weight(centres) for centres in self.centres])
+        # all copies at once: energies are read from memory once, and that is what takes the time
+        upper = np.einsum("cp,cp->p", weights @ self.energy, self.signs)
+        found = np.zeros((self.size, self.size))
+        rows, columns = np.triu_indices(self.size)
+        found[rows, columns] = found[columns, rows] = upper
         return found
 
 
@@ -52,7 +55,8 @@ def element_energy(
     mesh = model.mesh
     k = shapes.shape[1]
     moved = shapes.reshape(-1, 3, k)
-    energy = np.zeros((len(mesh.elements), k, k))
+    rows, columns = np.triu_indices(k)
+    energy = np.zeros((len(mesh.elements), len(rows)))
     for number, region in enumerate(mesh.regions):
         if region not in model.stiffness:
             continue  # lumps have no elements
@@ -61,7 +65,7 @@ def element_energy(
             blocks = stiffness_blocks(geometry, mesh.cell_axes(cells))
             K = sum(c * block for c, block in zip(entries, blocks, strict=True))
             local = moved[mesh.elements[cells]].reshape(len(cells), 60, k)
-            energy[cells] = np.swapaxes(local, 1, 2) @ (K @ local)
+            energy[cells] = (np.swapaxes(local, 1, 2) @ (K @ local))[:, rows, columns]
     middle = mesh.nodes[mesh.elements[:, :8]].mean(axis=1)
     centres, signs = [], []
     for flips in itertools.product((False, True), repeat=len(mesh.mirrors)):
@@ -71,5 +75,5 @@ def element_energy(
                 image[:, axis] = 2 * position - image[:, axis]
                 sign *= np.where(parities >> i & 1, -1.0, 1.0)
         centres.append(image)
-        signs.append(sign[:, None] * sign[None, :])
-    return ElementEnergy(np.array(centres), energy, np.array(signs))
+        signs.append(sign[rows] * sign[columns])
+    return ElementEnergy(np.array(centres), energy, np.array(signs), k)
