@@ -34,6 +34,7 @@ from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.next_measurement import Choice
 from statorhom.diagnose.one_line_errors import one_line_errors
 from statorhom.diagnose.place_rows import summaries
+from statorhom.diagnose.refit_starts import WORTH
 from statorhom.diagnose.report_rows import (
     as_declared,
     constant_rows,
@@ -45,7 +46,7 @@ from statorhom.diagnose.report_rows import (
 from statorhom.diagnose.resampling import stability
 from statorhom.diagnose.scan import Scan, rescanned, scan
 from statorhom.diagnose.simpler import by_criterion, simpler_fits
-from statorhom.diagnose.single_effects import WORTH, new_names, single_effects
+from statorhom.diagnose.single_effects import new_names, single_effects
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.geometry.tested_object import ObjectGeometry
 from statorhom.identify.announce import Announce, silent

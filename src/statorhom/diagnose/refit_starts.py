@@ -1,0 +1,139 @@
+"""Where refits of the effects begin, what they cost, and in which order they are tried."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from statorhom.diagnose.explanations import ADEQUATE, blank, nothing, widened
+from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.scan import Scan, Signature
+from statorhom.diagnose.scan import starts as scan_starts
+from statorhom.diagnose.searched_starts import searched_starts
+from statorhom.diagnose.valleys import wide_optima
+from statorhom.diagnose.wider_basis import with_materials_of
+from statorhom.errors import IdentificationError
+from statorhom.physics.candidate import Candidate
+
+STARTS, TRIED = 2, 4  # of one candidate that are followed, and that wide valleys choose them from
+WORTH = 2.0  # gain of the scan below which an effect is not refitted
+MOST = 12  # candidates that are refitted
+POOR = 3.0  # squared residual per feature above which another valley is looked for
+CHEAP, MIDDLING, DEAR = range(3)  # prices
+FIRST = 4  # cheap candidates that are followed whatever wide valleys say of them
+PART = 0.2  # of the best one's gain in wide valleys, from which on others are
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """Where a candidate's refit begins.
+
+    Parameters
+    ----------
+    hypothesis : the declared model and the candidate.
+    z : all coordinates.
+    rough : the optimum in wide valleys, where that is known.
+    """
+
+    hypothesis: Hypothesis
+    z: np.ndarray
+    rough: Refit | None = None
+
+
+Trial = tuple[float, list[Start]]  # gain of the scan, and where refits begin
+
+
+def is_poor(found: Refit) -> bool:
+    """Whether another valley should be looked for."""
+    return found.misfit > POOR * len(found.jacobian)
+
+
+def in_order(base: Refit, found: Scan) -> Iterator[Trial]:
+    """Gain and starts of the candidates that are worth it, in the order in which they are tried."""
+    first, *rest = found.worth_refitting(MOST, WORTH, nothing(base).adequacy < ADEQUATE) or (None,)
+    if first is None:
+        return
+    trials = [(s.gain, _starts_of(base, found, s)) for s in (first, *rest)]
+    if not is_poor(base):
+        yield from trials
+        return
+    if price(trials[0]) < DEAR:
+        # the scan's favourite needs no rival to be tried
+        gain, starts = trials.pop(0)
+        yield gain, [*(_searched(starts[0]) if price((gain, starts)) == CHEAP else ()), *starts]
+    # gross errors are held down: what a cheap effect would gain is better tried than read from its signature
+    others = [
+        (s.gain, _starts_of(base, found, s)) for s in found.of_every_candidate() if s not in (first, *rest)
+    ]
+    cheap = [trial for trial in (*trials, *others) if price(trial) == CHEAP]
+    widest = [(gain, _with_rough(base, starts)) for gain, starts in cheap]
+    yield from _promising(base, widest)
+    yield from sorted((trial for trial in trials if price(trial) > CHEAP), key=price)
+
+
+def price(trial: Trial) -> int:
+    """What an evaluation costs: least where the symmetry is kept, most with a contact."""
+    _, (start, *_) = trial
+    action = start.hypothesis.actions(start.z)[0]
+    if action.joint is not None:
+        return DEAR
+    return CHEAP if action.changes is None else MIDDLING
+
+
+def _promising(base: Refit, trials: Sequence[Trial]) -> list[Trial]:
+    """Those that wide valleys like, the best first: the first few, and what gains a part of what the best one does."""
+
+    def rough(trial: Trial) -> float:
+        return min(_rough_objective(start) for start in trial[1])
+
+    ordered = sorted(trials, key=rough)
+    declared = widened(blank(base.hypothesis, ()), base.z)
+    if declared is None or not ordered:
+        return ordered
+    least = PART * (declared.objective - rough(ordered[0]))
+    return [t for i, t in enumerate(ordered) if i < FIRST or declared.objective - rough(t) >= least]
+
+
+def _starts_of(base: Refit, found: Scan, signature: Signature) -> list[Start]:
+    """The best starts of a candidate that are not neighbours, and those of its other magnitudes."""
+    own = [s for s in found.signatures if s.candidate.label == signature.candidate.label]
+    chosen: list[Signature] = []
+    for one in own:
+        if all(abs(float(one.change @ other.change)) < 0.9 for other in chosen):
+            chosen.append(one)
+    begun = [start_of(base, s.candidate, s.start) for s in chosen[:STARTS]]
+    if not is_poor(base):
+        return begun
+    every = [np.r_[base.z, start] for start in scan_starts(base.hypothesis.study, signature.candidate)]
+    wider = with_materials_of(begun[0].hypothesis, every)
+    return [replace(one, hypothesis=wider) for one in begun]
+
+
+def start_of(base: Refit, candidate: Candidate, start: np.ndarray) -> Start:
+    hypothesis = blank(base.hypothesis, (candidate,))
+    return Start(hypothesis, np.r_[base.z, start])
+
+
+def _searched(start: Start) -> list[Start]:
+    """Starts at the best optima that are found all over the prior, in wide valleys."""
+    found = searched_starts(start.hypothesis, start.z)[:STARTS]
+    return [replace(start, z=rough.z, rough=rough) for rough in found]
+
+
+def _with_rough(base: Refit, starts: list[Start]) -> list[Start]:
+    """Starts at the best optima in wide valleys that are found from all of a cheap candidate's magnitudes."""
+    hypothesis = starts[0].hypothesis
+    every = scan_starts(base.hypothesis.study, hypothesis.candidates[0])
+    points = [*(start.z for start in starts), *(np.r_[base.z, one] for one in every)]
+    try:
+        found = wide_optima(replace(hypothesis, trained=False), points, TRIED)[:STARTS]
+    except IdentificationError:
+        return starts
+    return [Start(hypothesis, rough.z, rough) for rough in found]
+
+
+def _rough_objective(start: Start) -> float:
+    return np.inf if start.rough is None else start.rough.objective
