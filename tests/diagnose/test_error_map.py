@@ -42,7 +42,7 @@ def maps(stage: StageModel, angle: float, mass: float) -> ErrorMap:
     motion = modes.shapes.motion(surface_points(stage.model.mesh, *grid))[:, 0]
     radial = np.moveaxis(motion.reshape(len(z), len(ANGLES), -1), -1, 0)
     rows, keys = [], []
-    for key, place in stage.columns.items():
+    for key, place in stage.trained(()).columns.items():
         if key[0] in (2, 3) and place.sine is not None:
             weight = np.sum(modes.coordinates[[place.cosine, place.sine]] ** 2, axis=0)
             for number in np.argsort(-weight)[:2]:
@@ -60,7 +60,7 @@ def maps(stage: StageModel, angle: float, mass: float) -> ErrorMap:
     known.__dict__["broken"] = stage.broken
     plain = {
         k: SimpleNamespace(log_f=0.5 * np.log(p.eigenvalue) - np.log(2 * np.pi))
-        for k, p in stage.columns.items()
+        for k, p in stage.trained(()).columns.items()
     }
     hypothesis = SimpleNamespace(
         study=SimpleNamespace(stages=(known,)),

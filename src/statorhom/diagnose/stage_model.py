@@ -22,7 +22,6 @@ from statorhom.mesh.density import MeshDensity
 from statorhom.mesh.extrude import mesh_step
 from statorhom.model.affine import AffineModel, Materials, assemble
 from statorhom.model.broken.basis import SymmetricBasis, symmetric_basis
-from statorhom.model.broken.named_response import Columns
 from statorhom.model.broken.visible import visible
 from statorhom.model.convergence import ModeKey, converge, mode_keys
 from statorhom.model.free_modes import FreeModes, problem_at
@@ -131,11 +130,6 @@ class StageModel:
     def reference_keys(self) -> Mapping[ModeKey, StatorMode]:
         """Modes at the reference by name."""
         return mode_keys(self.solve(self.reference).modes)
-
-    @property
-    def columns(self) -> Mapping[ModeKey, Columns]:
-        """Where the named modes of the reference stand in the broken basis."""
-        return self.trained(()).columns
 
     def trained(self, trainings: Sequence[Training]) -> TrainedBasis:
         """The broken basis with what some changes need."""

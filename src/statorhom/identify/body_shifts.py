@@ -11,6 +11,7 @@ from statorhom.mesh.mirror_mesh import MirrorMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.broken.named_response import Response
 from statorhom.model.convergence import ModeKey
+from statorhom.model.eigen import frequency_hz
 from statorhom.model.modal.acted_body import ActedBody
 from statorhom.model.modal.modal_body import modal_body
 from statorhom.physics.action import Action
@@ -47,12 +48,9 @@ def body_shifts(
     )
     alike = (basis.reference[:, :inside].T @ acted.vectors) ** 2
     modes, partners = linear_sum_assignment(alike, maximize=True)
+    hz = frequency_hz(acted.values)
     return {
-        key: Response(float(np.log(_hz(acted.values[j]) / basis.reference_hz[i])), 0j)
+        key: Response(float(np.log(hz[j] / basis.reference_hz[i])), 0j)
         for i, j in zip(modes.tolist(), partners.tolist(), strict=True)
         if (key := basis.keys[i]) is not None and acted.values[j] > 0.0
     }
-
-
-def _hz(eigenvalue: float) -> float:
-    return float(np.sqrt(eigenvalue) / (2 * np.pi))

@@ -46,6 +46,11 @@ class Harmonic:
     imaginary: sp.csr_array
 
     @property
+    def kind(self) -> tuple[int, Parity, Axial | None]:
+        """What tells the problem from the others of its mesh."""
+        return self.order, self.parity, self.axial
+
+    @property
     def multiplicity(self) -> int:
         """How often each eigenvalue of the whole stator occurs in this problem."""
         return 2 if self.parity == "pair" else 1

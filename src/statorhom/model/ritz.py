@@ -35,14 +35,15 @@ def ritz_pairs(K: np.ndarray, M: np.ndarray | None) -> tuple[np.ndarray, np.ndar
 def lowest_pairs(K: np.ndarray, M: np.ndarray, top: float) -> tuple[np.ndarray, np.ndarray]:
     """Eigenvalues up to `top` of K x = λ M x with dense K and M, and their M-normalised vectors."""
     if np.abs(M - np.eye(len(M))).max() < UNIT_MASS:
-        return _standard_pairs(K, top)
+        return standard_pairs(K, top)
     L = np.linalg.cholesky(M)
     half = solve_triangular(L, K, lower=True, check_finite=False)
-    values, vectors = _standard_pairs(solve_triangular(L, half.T, lower=True, check_finite=False), top)
+    values, vectors = standard_pairs(solve_triangular(L, half.T, lower=True, check_finite=False), top)
     return values, solve_triangular(L, vectors, lower=True, trans="T", check_finite=False)
 
 
-def _standard_pairs(matrix: np.ndarray, top: float) -> tuple[np.ndarray, np.ndarray]:
+def standard_pairs(matrix: np.ndarray, top: float) -> tuple[np.ndarray, np.ndarray]:
+    """Eigenvalues up to `top` of a symmetric matrix, and their orthonormal vectors."""
     # asking for a part of the spectrum costs LAPACK four times as much as all of it by divide and conquer
     values, vectors = eigh(matrix, check_finite=False, driver="evd")
     count = int(np.searchsorted(values, top, side="right"))

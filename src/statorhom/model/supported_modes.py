@@ -33,7 +33,7 @@ from statorhom.model.point_response import (
     point_response,
     static_shift,
 )
-from statorhom.model.ritz import lowest_pairs
+from statorhom.model.ritz import standard_pairs
 from statorhom.model.stator_mode import RIGID_HZ
 from statorhom.model.supported_shapes import ShapePart, SupportedModes
 from statorhom.model.supports import Support
@@ -190,7 +190,7 @@ def _eigenpairs(A: np.ndarray, mass: np.ndarray, top: float) -> tuple[np.ndarray
     keep = weights > DEPENDENT * weights[-1]
     basis = directions[:, keep] / np.sqrt(weights[keep])
     reduced = basis.T @ A @ basis
-    values, vectors = lowest_pairs((reduced + reduced.T) / 2, np.eye(len(reduced)), top)
+    values, vectors = standard_pairs((reduced + reduced.T) / 2, top)
     return values, basis @ vectors
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy.typing as npt
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 BoolArray = npt.NDArray[np.bool_]
+IntArray = npt.NDArray[np.int_]
 
 # Noise at the points is amplified by at most this factor; an order that would need more is left out.
 _LARGEST_CONDITION = 10.0
@@ -46,20 +48,23 @@ def fit_orders(values: ComplexArray, columns: FloatArray, rich: BoolArray) -> Or
     rich : ndarray of bool, shape (planes,)
         Planes with points enough to choose the orders by; the others follow them as far as they can.
     """
-    every = list(range(len(columns)))
-    if np.isfinite(values).all() and _resolves(columns, every, np.ones((1, values.shape[1]), dtype=bool)):
-        return _fit_complete(values, columns)
     orders = _strongest_orders(values[rich], columns)
     fit = OrderFit(
         np.full((len(values), len(columns), 2), np.nan, dtype=complex), np.full(len(values), np.nan)
     )
-    for plane, row in enumerate(values):
-        present = np.isfinite(row)[None]
-        known = next((n for n in range(len(orders), 0, -1) if _resolves(columns, orders[:n], present)), 0)
+    for mask, planes in _by_points(np.isfinite(values)):
+        known = next((n for n in range(len(orders), 0, -1) if _resolves(columns, orders[:n], mask[None])), 0)
         if known:
-            single = _fit(row[None], columns, orders[:known])
-            fit.amplitudes[plane], fit.residual[plane] = single.amplitudes[0], single.residual[0]
+            part = _fit(values[planes], columns, orders[:known])
+            fit.amplitudes[planes], fit.residual[planes] = part.amplitudes, part.residual
     return fit
+
+
+def _by_points(present: BoolArray) -> Iterator[tuple[BoolArray, IntArray]]:
+    """Masks of points, and the numbers of the planes that have just these: what is solved once for all of them."""
+    masks, of = np.unique(present, axis=0, return_inverse=True)
+    for number, mask in enumerate(masks):
+        yield mask, np.flatnonzero(of == number)
 
 
 def _strongest_orders(values: ComplexArray, columns: FloatArray) -> list[int]:
@@ -140,23 +145,15 @@ def _resolves(columns: FloatArray, orders: list[int], masks: BoolArray) -> bool:
     return all(np.linalg.cond(flat[mask]) <= _LARGEST_CONDITION for mask in masks)
 
 
-def _fit_complete(values: ComplexArray, columns: FloatArray) -> OrderFit:
-    """Of planes without gaps: one least-squares problem for all of them."""
-    flat = _flat(columns, list(range(len(columns))))
-    solution = _least_squares(flat, values.T)
-    residual = np.mean(np.abs(flat @ solution - values.T) ** 2, axis=0)
-    return OrderFit(solution.T.reshape(len(values), -1, 2), residual)
-
-
 def _fit(values: ComplexArray, columns: FloatArray, orders: list[int]) -> OrderFit:
     amplitudes = np.zeros((len(values), len(columns), 2), dtype=complex)
     residual = np.empty(len(values))
     flat = _flat(columns, orders)
-    for plane, row in enumerate(values):
-        present = np.isfinite(row)
-        solution = _least_squares(flat[present], row[present, None])[:, 0]
-        residual[plane] = np.mean(np.abs(flat[present] @ solution - row[present]) ** 2)
-        amplitudes[plane, orders] = solution.reshape(-1, 2)
+    for mask, planes in _by_points(np.isfinite(values)):
+        seen = values[np.ix_(planes, mask)].T
+        solution = _least_squares(flat[mask], seen)
+        residual[planes] = np.mean(np.abs(flat[mask] @ solution - seen) ** 2, axis=0)
+        amplitudes[np.ix_(planes, np.array(orders))] = solution.T.reshape(len(planes), -1, 2)
     return OrderFit(amplitudes, residual)
 
 

@@ -16,6 +16,7 @@ from statorhom.diagnose.measured import MeasuredTest
 from statorhom.geometry.tested_object import object_geometry
 from statorhom.identify.settings import Settings
 from statorhom.identify.stage_setup import stage_setup
+from statorhom.results.diagnosis import Estimated
 from statorhom.study.study import load_study
 
 MASS_KG = float(CLOTH.density * np.prod(SIZE))
@@ -28,6 +29,14 @@ G_12_pa = { low = 6e9, high = 8e9 }
 G_13_pa = { low = 4e9, high = 5e9 }
 G_23_pa = { low = 3.6e9, high = 4.4e9 }
 """
+
+
+def holds(parameter: Estimated | float | str, value: float) -> bool:
+    """Whether an effect's parameter has an interval, with a value in it."""
+    if not isinstance(parameter, Estimated) or parameter.ci90 is None:
+        return False
+    low, high = parameter.ci90
+    return low < value < high
 
 
 def write_plate(folder: Path, frequencies: np.ndarray, noise: float = 5e-4, identify: str = "") -> Path:

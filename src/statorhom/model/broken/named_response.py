@@ -40,8 +40,7 @@ def columns_of(basis: SymmetricBasis, space: Harmonic, frequency_hz: float) -> C
     """The basis's mode of a harmonic problem that is nearest to a frequency; None where the basis lacks the problem."""
     value = (2 * np.pi * frequency_hz) ** 2
     for problem, place in zip(basis.problems, basis.places, strict=True):
-        own = problem.sector.space
-        if (own.order, own.parity, own.axial) != (space.order, space.parity, space.axial):
+        if problem.sector.space.kind != space.kind:
             continue
         nearest = int(np.argmin(np.abs(problem.values - value)))
         sine = place[True].start + nearest if True in place and False in place else None

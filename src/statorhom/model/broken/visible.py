@@ -37,7 +37,7 @@ def visible(
     problems = []
     for problem, motion in zip(basis.problems, motions, strict=True):
         keep = motion >= limit
-        for value in stay.get(_mark(problem.sector.space), ()) if len(keep) else ():
+        for value in stay.get(problem.sector.space.kind, ()) if len(keep) else ():
             keep[np.argmin(np.abs(problem.values - value))] = True
         problems.append(problem.chosen(keep))
     return replace(basis, problems=tuple(problems), grams=GramCache())
@@ -49,13 +49,9 @@ def _surface_motion(problem: ProblemBasis) -> np.ndarray:
     return np.asarray(np.sqrt(np.mean(np.abs(moved) ** 2, axis=0)))
 
 
-def _mark(space: Harmonic) -> tuple[Hashable, ...]:
-    return space.order, space.parity, space.axial
-
-
 def _values_by_problem(named: Iterable[tuple[Harmonic, float]]) -> dict[tuple[Hashable, ...], list[float]]:
     """Eigenvalues (rad²/s²) of modes, by their problem."""
     found: dict[tuple[Hashable, ...], list[float]] = {}
     for space, frequency in named:
-        found.setdefault(_mark(space), []).append((2 * np.pi * frequency) ** 2)
+        found.setdefault(space.kind, []).append((2 * np.pi * frequency) ** 2)
     return found
