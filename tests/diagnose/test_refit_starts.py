@@ -12,7 +12,7 @@ import pytest
 from statorhom.diagnose import refit_starts
 from statorhom.diagnose.searched_starts import SUPPORTS, _with_few_supports
 
-BASE: Any = SimpleNamespace(hypothesis=None, z=None)
+BASE: Any = SimpleNamespace(hypothesis=SimpleNamespace(candidates=()), z=None)
 
 
 def trial(rough: float | None) -> Any:

@@ -26,7 +26,6 @@ from statorhom.diagnose.explanations import (
     Explanation,
     effect_evidence,
     nothing,
-    with_second,
 )
 from statorhom.diagnose.held_out import HeldOut, held_out
 from statorhom.diagnose.held_out_name import held_out_names, renames_alone
@@ -34,7 +33,6 @@ from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.next_measurement import Choice
 from statorhom.diagnose.one_line_errors import one_line_errors
 from statorhom.diagnose.place_rows import summaries
-from statorhom.diagnose.refit_starts import WORTH
 from statorhom.diagnose.report_rows import (
     as_declared,
     constant_rows,
@@ -45,6 +43,7 @@ from statorhom.diagnose.report_rows import (
 )
 from statorhom.diagnose.resampling import stability
 from statorhom.diagnose.scan import Scan, rescanned, scan
+from statorhom.diagnose.second_effects import second_effects
 from statorhom.diagnose.simpler import by_criterion, simpler_fits
 from statorhom.diagnose.single_effects import new_names, single_effects
 from statorhom.geometry.stator import StatorGeometry
@@ -65,7 +64,6 @@ from statorhom.results.diagnosis import (
 from statorhom.study.study import StudyFiles
 
 COMPARED = 4  # explanations that resamplings compare
-SECONDS = 5  # effects that are tried beside the first
 LEAST_PROBABILITY = 0.005
 ALTERNATIVES = 2  # that an ambiguous answer names at least
 
@@ -154,9 +152,7 @@ def _pairs(
 ) -> list[Explanation]:
     """The best explanation with one more effect, the best first; none where modes that it did not see contradict."""
     first = found[0]
-    left = rescanned(signatures, base.free, first.refit).worth_refitting(SECONDS, WORTH)
-    second = [s for s in left if s.candidate.repeats or s.candidate.effect not in first.effects]
-    pairs = with_second(first, second[:SECONDS], counts)
+    pairs = second_effects(first, rescanned(signatures, base.free, first.refit), counts)
     if not pairs:
         return []
     # both effects have to hold: the second one against the first alone

@@ -14,7 +14,6 @@ from typing_extensions import TypeVar
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.refit import H, Refit, refit
-from statorhom.diagnose.scan import Signature
 from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
 
@@ -25,7 +24,6 @@ NARROWING = (0.01, 0.003)
 ADEQUATE = 0.01  # chance of a misfit above which nothing is left to explain
 ROWS = 8  # of which one may be grossly wrong
 DRAWS = 4000
-PAIR_GAIN = 5.0  # log evidence that a second effect must add
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,20 +84,6 @@ class Explanation(Generic[H]):
 def nothing(base: Refit) -> Explanation:
     """The declared model."""
     return Explanation((), base, base.log_evidence)
-
-
-def with_second(first: Explanation, others: Sequence[Signature], counts: dict[str, int]) -> list[Explanation]:
-    """The first explanation and one more effect, where that adds enough."""
-    found = []
-    worth = first.refit.objective - 2 * PAIR_GAIN
-    for signature in others:
-        start = np.r_[first.refit.z, signature.start]
-        hypothesis = blank(first.refit.hypothesis, (*first.candidates, signature.candidate))
-        best = refitted(hypothesis, start, worth)
-        if best is not None:
-            found.append(explained(best, counts))
-    enough = [e for e in found if e.log_evidence > first.log_evidence + PAIR_GAIN]
-    return sorted(enough, key=lambda e: -e.log_evidence)
 
 
 def explained(best: Refit, counts: dict[str, int]) -> Explanation:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from statorhom.diagnose.explanations import ADEQUATE, blank, nothing, widened
+from statorhom.diagnose.explanations import blank, widened
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.scan import Scan, Signature
@@ -20,9 +20,9 @@ from statorhom.physics.candidate import Candidate
 
 STARTS, TRIED = 2, 4  # of one candidate that are followed, and that wide valleys choose them from
 WORTH = 2.0  # gain of the scan below which an effect is not refitted
-MOST = 12  # candidates that are refitted
 POOR = 3.0  # squared residual per feature above which another valley is looked for
 CHEAP, MIDDLING, DEAR = range(3)  # prices
+AMOUNTS = 0.3, 8.0  # that a start's magnitude is multiplied by
 FIRST = 4  # cheap candidates that are followed whatever wide valleys say of them
 PART = 0.2  # of the best one's gain in wide valleys, from which on others are
 
@@ -51,11 +51,18 @@ def is_poor(found: Refit) -> bool:
     return found.misfit > POOR * len(found.jacobian)
 
 
-def in_order(base: Refit, found: Scan) -> Iterator[Trial]:
-    """Gain and starts of the candidates that are worth it, in the order in which they are tried."""
-    first, *rest = found.worth_refitting(MOST, WORTH, nothing(base).adequacy < ADEQUATE) or (None,)
-    if first is None:
+def in_order(base: Refit, found: Scan, favourites: Sequence[Signature]) -> Iterator[Trial]:
+    """Gain and starts of the candidates that are worth it, in the order in which they are tried.
+
+    Parameters
+    ----------
+    base : what a candidate is added to.
+    found : the scan.
+    favourites : its best candidates, of which each is tried.
+    """
+    if not favourites:
         return
+    first, *rest = favourites
     trials = [(s.gain, _starts_of(base, found, s)) for s in (first, *rest)]
     if not is_poor(base):
         yield from trials
@@ -77,7 +84,8 @@ def in_order(base: Refit, found: Scan) -> Iterator[Trial]:
 def price(trial: Trial) -> int:
     """What an evaluation costs: least where the symmetry is kept, most with a contact."""
     _, (start, *_) = trial
-    action = start.hypothesis.actions(start.z)[0]
+    # what the candidate is added to costs the same with each of them
+    action = start.hypothesis.actions(start.z)[len(start.hypothesis.candidates) - 1]
     if action.joint is not None:
         return DEAR
     return CHEAP if action.changes is None else MIDDLING
@@ -90,11 +98,11 @@ def _promising(base: Refit, trials: Sequence[Trial]) -> list[Trial]:
         return min(_rough_objective(start) for start in trial[1])
 
     ordered = sorted(trials, key=rough)
-    declared = widened(blank(base.hypothesis, ()), base.z)
-    if declared is None or not ordered:
+    without = widened(blank(base.hypothesis, base.hypothesis.candidates), base.z)
+    if without is None or not ordered:
         return ordered
-    least = PART * (declared.objective - rough(ordered[0]))
-    return [t for i, t in enumerate(ordered) if i < FIRST or declared.objective - rough(t) >= least]
+    least = PART * (without.objective - rough(ordered[0]))
+    return [t for i, t in enumerate(ordered) if i < FIRST or without.objective - rough(t) >= least]
 
 
 def _starts_of(base: Refit, found: Scan, signature: Signature) -> list[Start]:
@@ -104,7 +112,7 @@ def _starts_of(base: Refit, found: Scan, signature: Signature) -> list[Start]:
     for one in own:
         if all(abs(float(one.change @ other.change)) < 0.9 for other in chosen):
             chosen.append(one)
-    begun = [start_of(base, s.candidate, s.start) for s in chosen[:STARTS]]
+    begun = [start_of(base, s.candidate, _as_large(s)) for s in chosen[:STARTS]]
     if not is_poor(base):
         return begun
     every = [np.r_[base.z, start] for start in scan_starts(base.hypothesis.study, signature.candidate)]
@@ -112,8 +120,22 @@ def _starts_of(base: Refit, found: Scan, signature: Signature) -> list[Start]:
     return [replace(one, hypothesis=wider) for one in begun]
 
 
+def _as_large(signature: Signature) -> np.ndarray:
+    """The start of an effect somewhere, about as large as the misfit asks for: lumps differ by a factor of fifty."""
+    magnitude, *others = signature.candidate.parameters
+    if not any(p.located for p in others):
+        return signature.start
+    value, amount = magnitude.value(signature.start[0]), float(np.clip(signature.amount, *AMOUNTS))
+    if magnitude.scale == "log":
+        absent = magnitude.absent
+        value = value * amount if absent is None else absent * (value / absent) ** amount
+    start = signature.start.copy()
+    start[0] = magnitude.internal(float(np.clip(value, magnitude.lower, magnitude.upper)))
+    return start
+
+
 def start_of(base: Refit, candidate: Candidate, start: np.ndarray) -> Start:
-    hypothesis = blank(base.hypothesis, (candidate,))
+    hypothesis = blank(base.hypothesis, (*base.hypothesis.candidates, candidate))
     return Start(hypothesis, np.r_[base.z, start])
 
 
@@ -126,7 +148,7 @@ def _searched(start: Start) -> list[Start]:
 def _with_rough(base: Refit, starts: list[Start]) -> list[Start]:
     """Starts at the best optima in wide valleys that are found from all of a cheap candidate's magnitudes."""
     hypothesis = starts[0].hypothesis
-    every = scan_starts(base.hypothesis.study, hypothesis.candidates[0])
+    every = scan_starts(base.hypothesis.study, hypothesis.candidates[-1])
     points = [*(start.z for start in starts), *(np.r_[base.z, one] for one in every)]
     try:
         found = wide_optima(replace(hypothesis, trained=False), points, TRIED)[:STARTS]

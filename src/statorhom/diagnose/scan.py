@@ -22,7 +22,8 @@ from statorhom.physics.parameter import EffectParameter
 
 FloatArray = npt.NDArray[np.float64]
 ANGLES_PER_ORDER = 5  # places per half wave of the highest split order
-HEIGHTS = (0.15, 0.5, 0.85)  # of the core's length
+# of the core's length; not its middle, where splits of a symmetric stator have no slope that a refit could follow
+HEIGHTS = (0.15, 0.45, 0.7)
 DRAWS = 4000
 INVISIBLE = 1e-6  # of a signature's square that the constants leave: none that could be told
 
@@ -47,6 +48,11 @@ class Signature:
     strength: float
     gain: float
     whole: FloatArray
+
+    @property
+    def amount(self) -> float:
+        """How many times the start's effect the misfit asks for, were the effect proportional."""
+        return float(np.sqrt(self.gain)) / self.strength
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,11 +22,11 @@ def searched_starts(hypothesis: Hypothesis, z: np.ndarray, seed: int = 0) -> lis
 
     Parameters
     ----------
-    hypothesis : with one effect.
+    hypothesis : with the effect as its last one.
     z : all coordinates; the constants of other steps stay there until an optimum is sought.
     seed : of the points.
     """
-    [candidate] = hypothesis.candidates
+    candidate = hypothesis.candidates[-1]
     constants = hypothesis.study.constants
     own = [s.setup for s in hypothesis.study.stages if s.setup.keys.name == candidate.stage]
     places = [place for setup in own for place in new_constants(constants, setup)]

@@ -7,7 +7,7 @@ to explain, the others are followed only while they promise to come near it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -16,15 +16,26 @@ from statorhom.diagnose.explanations import (
     ADEQUATE,
     Explanation,
     explained,
+    nothing,
     refitted,
     through_wide_valleys,
 )
 from statorhom.diagnose.mislabelled import worth_trying
 from statorhom.diagnose.refit import Refit
-from statorhom.diagnose.refit_starts import CHEAP, WORTH, Start, in_order, is_poor, price, start_of
+from statorhom.diagnose.refit_starts import (
+    CHEAP,
+    WORTH,
+    Start,
+    Trial,
+    in_order,
+    is_poor,
+    price,
+    start_of,
+)
 from statorhom.diagnose.scan import Scan
 from statorhom.physics.candidate import Candidate
 
+MOST = 12  # candidates that are refitted
 RELABELLED = 4
 MOSTLY = 0.5  # of the declared model's objective, below which an explanation leads
 NEAR = 60.0  # of the objective: what does not come so near to an adequate explanation is given up
@@ -42,9 +53,27 @@ def single_effects(
     discrete : candidates without parameters.
     counts : effect → number of its candidates, over which its prior is spread.
     """
+    favourites = found.worth_refitting(MOST, WORTH, nothing(base).adequacy < ADEQUATE)
+    explanations = refits(base, in_order(base, found, favourites), counts)
+    explanations += new_names(base, discrete, counts, _worth(explanations))
+    return sorted(explanations, key=lambda e: -e.log_evidence)
+
+
+def refits(
+    base: Refit, trials: Iterable[Trial], counts: dict[str, int], limit: float = np.inf
+) -> list[Explanation]:
+    """The best refit of every trial that can still win.
+
+    Parameters
+    ----------
+    base : what the trials add to.
+    trials : in the order in which they are tried.
+    counts : as for `single_effects`.
+    limit : objective above which a refit matters to nobody.
+    """
     explanations: list[Explanation] = []
-    for gain, starts in in_order(base, found):
-        worth = _worth(explanations)
+    for gain, starts in trials:
+        worth = min(limit, _worth(explanations))
         if gain < WORTH and np.isfinite(worth):
             continue  # it promises nothing, and nothing is left to explain
         if price((gain, starts)) > CHEAP:
@@ -52,8 +81,7 @@ def single_effects(
         best = _best_refit(starts, worth, far=is_poor(base))
         if best is not None:
             explanations.append(explained(best, counts))
-    explanations += new_names(base, discrete, counts, _worth(explanations))
-    return sorted(explanations, key=lambda e: -e.log_evidence)
+    return explanations
 
 
 def new_names(

@@ -26,7 +26,7 @@ def with_materials_of(hypothesis: Hypothesis, points: Sequence[np.ndarray]) -> H
 
     Parameters
     ----------
-    hypothesis : with one effect; it comes back as it is where that changes no material.
+    hypothesis : with the effect as its last one; it comes back as it is where none changes a material.
     points : all coordinates, with magnitudes of all sizes.
     """
     if not any(action.materials is not None for action in hypothesis.actions(points[0])):
@@ -45,18 +45,15 @@ def _spread(points: Sequence[np.ndarray]) -> list[np.ndarray]:
 
 
 def _materials(hypothesis: Hypothesis, stage: StageModel, points: Sequence[np.ndarray]) -> list[Materials]:
-    """Materials of a stage that differ much from those without the effect."""
+    """Materials of a stage that differ much from those of its basis."""
     study, found = hypothesis.study, []
     for z in points:
         values = study.constants.values(z[: hypothesis.constants])
         try:
-            plain, acted = (
-                acted_materials(study, stage, values, actions)
-                for actions in (study.effects, hypothesis.actions(z))
-            )
+            acted = acted_materials(study, stage, values, hypothesis.actions(z))
         except StatorhomError:
             continue
-        if any(_is_far(plain[r], acted[r]) for r in acted):
+        if any(_is_far(stage.reference[region], acted[region]) for region in acted):
             found.append(acted)
     return found
 

@@ -15,11 +15,11 @@ import numpy.typing as npt
 from statorhom.extraction.clusters import cluster_lines, clusters, nearest, tiles
 from statorhom.extraction.modal_model import Modes, Window, steady_modes
 from statorhom.extraction.mode_count import drop_doubtful, grow, prune
-from statorhom.extraction.moving_modes import moving_set_ups, refitted, with_moving_modes
+from statorhom.extraction.moving_modes import most_move, moving_set_ups, refitted, with_moving_modes
 from statorhom.extraction.noise import LEAST_MODEL_ERROR
 from statorhom.extraction.point_grid import PointGrid
 from statorhom.extraction.set_up_shifts import SetUps
-from statorhom.extraction.window_fit import WindowFit
+from statorhom.extraction.window_fit import WindowFit, fit_window
 
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
@@ -55,6 +55,7 @@ class ModeSearch:
         self.stable = stable / self.unit
         self.variance = np.where(grid.measured, sd**2.0, np.inf)
         self.set_ups: SetUps | None = None
+        self.moved: list[bool] = []  # by every window, while poles may move
         self.visited: list[tuple[slice, ComplexArray]] = []
         self.modes = steady_modes(poles / self.unit, parts.reshape(len(poles), len(grid.references)))
 
@@ -153,9 +154,24 @@ class ModeSearch:
         self.modes = replace(self.modes, poles=poles).joined(fit.modes)
 
     def _with_moving(self, window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
-        if self.set_ups is None:
+        if self.set_ups is None or not len(fit.modes):
             return fit
-        return with_moving_modes(window, fit, neighbours, self.set_ups, self.stable)
+        found = with_moving_modes(window, fit, neighbours, self.set_ups, self.stable)
+        self.moved.append(bool(found.modes.moving.any()))
+        if not most_move(self.moved):
+            self._hold_still()
+            return fit_window(window, self._steady(found.modes), neighbours)
+        return found
+
+    def _hold_still(self) -> None:
+        """Take the poles for those of a test that stays as it is, after all."""
+        self.set_ups = None
+        self.visited.clear()
+        self.modes = self._steady(self.modes)
+
+    @staticmethod
+    def _steady(modes: Modes) -> Modes:
+        return steady_modes(modes.poles, modes.parts)
 
 
 def _settled(before: Modes, after: Modes) -> bool:

@@ -22,6 +22,7 @@ ComplexArray = npt.NDArray[np.complex128]
 _EXPLAINED = 1.5  # misfit of a window that needs nothing further
 _STEADY = 0.5  # of the price of shifts: what a window may promise whose modes stay
 _MAJORITY = 2.0  # windows with moving modes for every one whose modes stay
+_JURY = 4  # windows after which poles that do not move are held still
 _IMAGES_COUNT = 3  # windows that one with images counts for
 _APART = 0.3  # common part of the amplitudes of two images
 _OVERLAP = 3.0  # bandwidths within which images of one moving mode lie
@@ -51,6 +52,17 @@ def moving_set_ups(windows: FittedWindows) -> SetUps | None:
         if moving > _MAJORITY * steady and moving > most:
             best, most = set_ups, moving
     return best
+
+
+def most_move(windows: Sequence[bool]) -> bool:
+    """Whether what a look from afar has promised holds in the windows that were searched; yes while these are few.
+
+    Parameters
+    ----------
+    windows : of every window, whether it is explained best by modes that move.
+    """
+    moving = sum(windows)
+    return len(windows) < _JURY or _MAJORITY * moving >= len(windows) - moving
 
 
 def _has_images(fit: WindowFit) -> bool:

@@ -8,7 +8,7 @@ from statorhom.mesh.density import MeshDensity, graded
 
 # Within 0.8 % of the converged (2, 0) frequency at half the degrees of freedom of the usual graded mesh; refined by
 # 1.5 and 2 it extrapolates to within 0.1 %.
-FITTING_MESH = graded(tooth=1, radial=2, yoke=2)
+FITTING_MESH = graded(tooth=1, yoke=2)
 
 
 @dataclass(frozen=True)

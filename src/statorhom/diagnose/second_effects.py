@@ -1,0 +1,35 @@
+"""The best explanation with one more effect: sought like a single one, with the first effect free all the time."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from statorhom.diagnose.explanations import Explanation
+from statorhom.diagnose.refit_starts import WORTH, in_order, is_poor
+from statorhom.diagnose.scan import Scan
+from statorhom.diagnose.single_effects import refits
+
+SECONDS = 5  # effects that are tried beside the first
+PAIR_GAIN = 5.0  # log evidence that a second effect must add
+
+
+def second_effects(first: Explanation, left: Scan, counts: dict[str, int]) -> list[Explanation]:
+    """The first explanation and one more effect, where that adds enough; the best first.
+
+    Parameters
+    ----------
+    first : the best single effect.
+    left : what effects would take away of the misfit that it leaves.
+    counts : effect → number of its candidates, over which its prior is spread.
+    """
+    others = [s for s in left.signatures if s.candidate.repeats or s.candidate.effect not in first.effects]
+    left = replace(left, signatures=tuple(others))
+    favourites = left.worth_refitting(SECONDS, WORTH)[:SECONDS]
+    base = first.refit
+    # far from an optimum of two effects, an optimum beside the first one's says little of how far they get
+    limit = np.inf if is_poor(base) else base.objective - 2 * PAIR_GAIN
+    found = refits(base, in_order(base, left, favourites), counts, limit)
+    enough = [e for e in found if e.log_evidence > first.log_evidence + PAIR_GAIN]
+    return sorted(enough, key=lambda e: -e.log_evidence)
