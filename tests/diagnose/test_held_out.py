@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
-from statorhom.diagnose.held_out import HeldOut
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from statorhom.diagnose.features import Feature
+from statorhom.diagnose.held_out import HeldOut, left_out_errors
 
 TOLD = (
     ("stack-free", (2, 0, 0)),
@@ -44,3 +51,14 @@ def test_nothing_that_was_held_out_proves_nothing() -> None:
     empty = HeldOut((), (), (), ())
     assert not empty.falls
     assert empty.before_rms == 0.0
+
+
+def test_pole_shifts_are_no_part_of_a_frequency_s_noise() -> None:
+    key = (2, 1, 0)
+    features = [Feature("frequency", "stack-free", key, 7.001, 7.0, 2e-3)]
+    features += [Feature("shift", "stack-free", key, m, 0.0, 2e-5) for m in (5e-4, -5e-4)]
+    hypothesis: Any = SimpleNamespace(features=lambda _, left_out: features if left_out else [])
+    found = left_out_errors(hypothesis, np.empty(0))
+    group = ("stack-free", key)
+    assert found[group, False] == pytest.approx((0.1, 0.2))
+    assert found[group, True] == pytest.approx((0.05 * np.sqrt(2), 0.002 * np.sqrt(2)))

@@ -30,7 +30,8 @@ def answered(
 
     def errors(full: Any, fold: frozenset[Any]) -> dict[Any, _Error]:
         i = 0 if full is base else 1
-        return {g: _Error(weighed[i], 0.6, 0.0) if g == WEIGHED else _Error(modes[i], 0.1, 0.0) for g in fold}
+        known = {True: _Error(weighed[i], 0.6, 0.0), False: _Error(modes[i], 0.1, 0.0)}
+        return {(g, False): known[g == WEIGHED] for g in fold}
 
     monkeypatch.setattr(module, "_errors", errors)
     return held_out(base, Explanation((), moved, 0.0))

@@ -34,6 +34,7 @@ WEIGHT = {
 }
 
 Group = tuple[str, ModeKey | None]
+Part = tuple[Group, bool]  # of a group: its pole shifts, or the rest, whose model is far less certain
 WEIGHED: Group = ("", None)  # what is known of the densities
 MOVES = 0.5  # standard deviations by which an explanation moves a density of which it says something
 
@@ -44,7 +45,7 @@ class HeldOut:
 
     Parameters
     ----------
-    groups : test and mode.
+    groups : test and mode; one with pole shifts stands here twice, for these and for the rest.
     before, after : of the declared model and of the explanation.
     noise : what the measurement, the mesh and the modes that were seen leave uncertain; errors weigh by it.
     what : one line for the report.
@@ -130,15 +131,15 @@ def held_out(base: Refit, explanation: Explanation) -> HeldOut:
 
 def _predicted(base: Refit, explanation: Explanation, folds: Sequence[frozenset[Group]]) -> HeldOut:
     groups = {g for fold in folds for g in fold}
-    rows: dict[Group, tuple[_Error, _Error]] = {}
+    rows: dict[Part, tuple[_Error, _Error]] = {}
     for fold in folds:
         if not fold or (len(fold) == len(groups) and fold != {WEIGHED}):
             continue
         before, after = (_errors(r, fold) for r in (base, explanation.refit))
-        rows |= {group: (before[group], after[group]) for group in fold if group in before and group in after}
+        rows |= {part: (before[part], after[part]) for part in before if part in after}
     used = sorted(rows, key=str)
     return HeldOut(
-        tuple(used),
+        tuple(group for group, _ in used),
         tuple(rows[g][0].error for g in used),
         tuple(rows[g][1].error for g in used),
         tuple(float(np.hypot(rows[g][0].noise, max(e.spread for e in rows[g]))) for g in used),
@@ -170,14 +171,14 @@ def groups_of(base: Refit) -> list[Group]:
 
 @dataclass(frozen=True)
 class _Error:
-    """Of one group in percent: the error, its noise, and what the other groups leave open of the prediction."""
+    """Of a part of a group in percent: the error, its noise, and what other groups leave open of the prediction."""
 
     error: float
     noise: float
     spread: float
 
 
-def _errors(full: Refit, fold: frozenset[Group]) -> dict[Group, _Error]:
+def _errors(full: Refit, fold: frozenset[Group]) -> dict[Part, _Error]:
     """Errors of a fold after a fit without it."""
     hypothesis: AnyHypothesis = replace(full.hypothesis, left_out=fold)
     try:
@@ -186,29 +187,35 @@ def _errors(full: Refit, fold: frozenset[Group]) -> dict[Group, _Error]:
         spreads = _spreads(trained)
     except StatorhomError:
         return {}
-    return {group: _Error(*pair, spreads.get(group, 0.0)) for group, pair in known.items()}
+    return {part: _Error(*pair, spreads.get(part, 0.0)) for part, pair in known.items()}
 
 
-def _spreads(trained: Refit[_H]) -> dict[Group, float]:
+def _spreads(trained: Refit[_H]) -> dict[Part, float]:
     """Standard deviations of the predictions of what a fit left out, in percent."""
     everything = replace(trained.hypothesis, left_out=frozenset())
     rows = jacobian(everything, trained.z)
     variances = np.einsum("ij,jk,ik->i", rows, trained.covariance, rows)
-    found: dict[Group, float] = {}
+    found: dict[Part, float] = {}
     for feature, variance in zip(everything.features(trained.z), variances.tolist(), strict=True):
         if feature.group in trained.hypothesis.left_out and _tells(feature):
             part = 100 * WEIGHT[feature.kind] * feature.sd / _scale(feature)
-            found[feature.group] = float(np.hypot(found.get(feature.group, 0.0), part * np.sqrt(variance)))
+            own = _part(feature)
+            found[own] = float(np.hypot(found.get(own, 0.0), part * np.sqrt(variance)))
     return found
 
 
-def left_out_errors(hypothesis: AnyHypothesis, z: np.ndarray) -> dict[Group, tuple[float, float]]:
+def left_out_errors(hypothesis: AnyHypothesis, z: np.ndarray) -> dict[Part, tuple[float, float]]:
     """Errors of what a hypothesis leaves out in percent, and their noise."""
-    found: dict[Group, list[Feature]] = {}
+    found: dict[Part, list[Feature]] = {}
     for feature in hypothesis.features(z, left_out=True):
         if _tells(feature):
-            found.setdefault(feature.group, []).append(feature)
-    return {group: (_error(features), _noise(features)) for group, features in found.items()}
+            found.setdefault(_part(feature), []).append(feature)
+    return {part: (_error(features), _noise(features)) for part, features in found.items()}
+
+
+def _part(feature: Feature) -> Part:
+    """What errors are summed over: a sensor moves a pole by less than the mesh leaves open of its frequency."""
+    return feature.group, feature.kind == "shift"
 
 
 def _tells(feature: Feature) -> bool:

@@ -16,6 +16,7 @@ APART = 1.0  # half-power bandwidths by which a mode must stand off all others f
 ALIKE = 0.5  # rad: antinodes of images lie together, those of a doublet's two modes apart
 LEAST_POINTS = 4  # per plane
 LEAST_SD = 5e-6
+CONTRARY = 8.0  # standard deviations by which the points of a plane may differ
 LARGEST = 0.03  # shifts beyond are of another mode
 
 
@@ -92,9 +93,12 @@ def stands_off(modes: Sequence[NamedMode], i: int) -> bool:
 def _by_plane(
     label: str, heights: np.ndarray, shift: np.ndarray, sd: np.ndarray, loss: float
 ) -> PlaneShifts | None:
-    """Weighted means around the circumference; their spread tells how certain they are."""
+    """Weighted means around the circumference; their spread tells how certain they are.
+
+    None where the points of a plane contradict each other: then other modes move what looks like the pole.
+    """
     usable = np.isfinite(sd) & np.isfinite(heights) & (np.abs(shift) < LARGEST) & (sd < 0.3 * loss)
-    planes, means, deviations = [], [], []
+    planes, means, deviations, contrary = [], [], [], []
     for z in np.unique(np.round(heights[np.isfinite(heights)], 6)):
         here = usable & (np.abs(heights - z) < 1e-6)
         if np.count_nonzero(here) < LEAST_POINTS:
@@ -106,7 +110,8 @@ def _by_plane(
         planes.append(float(z))
         means.append(mean)
         deviations.append(max(spread, LEAST_SD))
-    if len(planes) < 2:
+        contrary.append(float(np.std(shift[here]) / np.hypot(np.median(sd[here]), LEAST_SD)))
+    if len(planes) < 2 or np.median(contrary) > CONTRARY:
         return None
     s, d = np.array(means), np.array(deviations)
     return PlaneShifts(label, np.array(planes), s - float(s.mean()), d, float(s.mean()))

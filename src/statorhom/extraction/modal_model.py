@@ -233,7 +233,8 @@ def projected(flat: ComplexArray, values: ComplexArray) -> ComplexArray:
     """Inner products of every point's values with the columns, shape (points, columns)."""
     if len(flat) == 1:
         return np.asarray(values @ flat[0].conj().T)
-    return np.asarray((flat.conj() @ values[:, :, None])[..., 0])
+    # the values are conjugated, for the columns of all points take long to copy
+    return np.asarray((flat @ values.conj()[:, :, None])[..., 0].conj())
 
 
 def fitted(coefficients: ComplexArray, flat: ComplexArray) -> ComplexArray:
