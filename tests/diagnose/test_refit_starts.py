@@ -10,7 +10,10 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose import refit_starts
+from statorhom.diagnose.refit_starts import _as_large
+from statorhom.diagnose.scan import Signature
 from statorhom.diagnose.searched_starts import SUPPORTS, _with_few_supports
+from statorhom.physics.parameter import EffectParameter, angle, height
 
 BASE: Any = SimpleNamespace(hypothesis=SimpleNamespace(candidates=()), z=None)
 
@@ -43,3 +46,33 @@ def test_few_supports_go_with_all_the_constants() -> None:
     assert 2 <= len(set(supports)) <= SUPPORTS
     # neighbours share theirs: it is solved once
     assert sum(a != b for a, b in pairwise(supports)) == len(set(supports)) - 1
+
+
+def signature(effect: Any, start: list[float], strength: float, gain: float) -> Signature:
+    return Signature(effect, np.array(start), np.ones(1), strength, gain, np.ones(1))
+
+
+def test_a_lump_begins_as_heavy_as_the_misfit_asks() -> None:
+    mass = EffectParameter("mass_kg", 0.003, 0.05, 1e-4, 0.2, "log", (0.01,), None)
+    lump: Any = SimpleNamespace(parameters=(mass, angle(), height(0.08)))
+    start = [mass.internal(0.01), 0.3, -0.2]
+    # its splits are 8 standard deviations at 10 g, and 40 are missing
+    begun = _as_large(signature(lump, start, 8.0, 40.0**2))
+    assert mass.value(begun[0]) == pytest.approx(0.05)
+    assert begun[1:].tolist() == start[1:]
+    # held-down residuals may ask for anything, physical limits hold
+    assert mass.value(_as_large(signature(lump, start, 1e-3, 40.0**2))[0]) == pytest.approx(0.08)
+
+
+def test_a_ratio_goes_away_from_what_it_is_without_the_effect() -> None:
+    ratio = EffectParameter("stiffness_ratio", 0.3, 2.5, 0.02, 12.0, "log", (0.6,), 1.0)
+    strip: Any = SimpleNamespace(parameters=(ratio, angle()))
+    begun = _as_large(signature(strip, [ratio.internal(0.6), 0.0], 10.0, 20.0**2))
+    assert ratio.value(begun[0]) == pytest.approx(0.36)
+
+
+def test_effects_without_a_place_begin_where_the_scan_did() -> None:
+    shear = EffectParameter("G_rz_pa", 1e9, 60e9, 0.2e9, 75e9, "log", (10e9,), None)
+    sliding: Any = SimpleNamespace(parameters=(shear, shear))
+    begun = _as_large(signature(sliding, [0.1, 0.2], 1.0, 100.0))
+    assert begun.tolist() == [0.1, 0.2]

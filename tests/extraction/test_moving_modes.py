@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from statorhom.extraction import extract
+from statorhom.extraction.moving_modes import most_move
 from statorhom.recordings.frf_set import FrfSet
 from synthetic_frfs import frf_set, ring_points, ring_shape
 
@@ -62,3 +63,10 @@ def test_a_mode_that_is_but_a_trace_is_not_listed_where_the_model_limits_the_fit
     frfs = frf_set(LINES, POINTS, [0], [*POLES, (1240.0, 0.01)], shapes, noise=1e-4, floor_db=-140.0)
     found = extract(frfs)
     assert [round(mode.frequency_hz) for mode in found.modes] == [1000, 1500]
+
+
+def test_a_promise_from_afar_is_dropped_where_the_windows_do_not_keep_it() -> None:
+    assert most_move([False] * 3)  # too few to tell
+    assert not most_move([False] * 4)
+    assert most_move([True, False, False, True])
+    assert not most_move([True, False, False, False])

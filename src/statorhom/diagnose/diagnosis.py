@@ -132,7 +132,8 @@ def _find(
         found = single_effects(base.free, signatures, discrete, counts)
         if found and found[0].adequacy < ADEQUATE:
             found = approach.refined(found, base.valleys, counts)
-        if found and found[0].adequacy < ADEQUATE:
+        # one gross error asks for no second effect
+        if found and found[0].adequacy_but_one < ADEQUATE:
             found = _pairs(base, found, signatures, counts) + found
     else:
         # nothing but another name can be found any more
