@@ -111,3 +111,16 @@ def test_refining_a_mesh_multiplies_its_elements():
     step = stator().step(("stack", "wound"))
     coarse, fine = (len(mesh_step(step, graded(f)).elements) for f in (1.0, 2.0))
     assert fine == 8 * coarse
+
+
+def test_teeth_that_no_winding_holds_may_get_more_cells():
+    density = MeshDensity(graded().cells, bare={"radial": 6})
+    geometry = stator(PARALLEL_TOOTH)
+    counts = {
+        kinds: [len(mesh_step(geometry.step(kinds), d).elements) for d in (density, graded())]
+        for kinds in (("stack",), ("stack", "wound"))
+    }
+    bare, usual = counts["stack",]
+    assert bare > usual
+    assert counts["stack", "wound"][0] == counts["stack", "wound"][1]
+    assert density.refined(1.5).of_empty_slots().across("radial") == 9

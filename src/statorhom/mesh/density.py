@@ -58,6 +58,7 @@ class MeshDensity:
         get more cells where `cells` would be too wide.
     longest : the same for the axial length, in outer radii of the core.
     factor : refinement; multiplies all numbers of cells.
+    bare : division → number of cells where the slots are empty, and nothing holds the teeth.
     """
 
     cells: Mapping[str, int]
@@ -66,13 +67,19 @@ class MeshDensity:
     widest: float | None = None
     longest: float | None = None
     factor: float = 1.0
+    bare: Mapping[str, int] = FrozenMap({})
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "cells", FrozenMap(self.cells))
+        object.__setattr__(self, "bare", FrozenMap(self.bare))
 
     def refined(self, factor: float) -> MeshDensity:
         """The same mesh with every number of cells multiplied by `factor` (rounded, at least as many)."""
         return replace(self, factor=self.factor * factor)
+
+    def of_empty_slots(self) -> MeshDensity:
+        """The mesh of a step whose slots are empty."""
+        return replace(self, cells={**self.cells, **self.bare})
 
     def across(self, division: str, angle: float = 0.0) -> int:
         """Cells along a division of the section that takes `angle` (rad) of the back of the core."""

@@ -12,6 +12,7 @@ from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.mesh.quality import scaled_jacobians
 from statorhom.mesh.section_mesh import SectionMesh, mesh_section
 
+WINDING = "winding"  # region that fills the slots
 PLANE_TOLERANCE = 1e-9  # rad: nodes on the planes of symmetry, which gmsh places to rounding
 LEAST_JACOBIAN = 1e-3  # scaled; cells below are slivers, negative ones are folded
 
@@ -24,6 +25,8 @@ def mesh_step(step: StepGeometry, density: MeshDensity) -> HalfPitchMesh:
     GeometryError
         If some dimensions are so far apart that cells become slivers.
     """
+    if WINDING not in step.regions:
+        density = density.of_empty_slots()
     flat = mesh_section(step.section, density)
     _check_cells(step, flat)
     columns = _Columns(len(flat.points))
