@@ -14,6 +14,9 @@ import numpy as np
 from statorhom.model.material_span import MaterialPoint
 
 DIAGONAL = [0, 1, 2, 6, 7, 8]  # of the nine Hooke entries
+# A cell is trained beyond its border, on materials that lie not much farther from its centre than from their own, and
+# on a few of the nearest in any case: where materials are rare, a cell's own ones do not show what lies between.
+OVERLAP, LEAST = 1.3, 12
 COUPLED = ((3, 0, 1), (4, 0, 2), (5, 1, 2))  # an off-diagonal entry and the two diagonal ones that bound it
 
 
@@ -55,6 +58,33 @@ class MaterialCells:
     def distances(self, point: MaterialPoint) -> np.ndarray:
         """Distances to all centres (cells,)."""
         return np.asarray(np.abs(self.centres - features(point)).max(axis=1))
+
+
+@dataclass(frozen=True)
+class Division:
+    """Materials divided into cells.
+
+    Parameters
+    ----------
+    cells : where a material belongs.
+    members : per cell the numbers of the materials in and around it, the one in its middle first.
+    """
+
+    cells: MaterialCells
+    members: tuple[tuple[int, ...], ...]
+
+
+def divided(points: Sequence[MaterialPoint], radius: float, most: int) -> Division:
+    """Divide materials, the first of which is the middle of the first cell."""
+    cells, centres = material_cells(points, radius, most)
+    distance = np.array([cells.distances(point) for point in points])
+    near = distance <= OVERLAP * distance.min(axis=1, keepdims=True)
+    members = []
+    for cell, centre in enumerate(centres):
+        order = np.argsort(distance[:, cell], kind="stable").tolist()
+        around = [i for rank, i in enumerate(order) if i != centre and (near[i, cell] or rank < LEAST)]
+        members.append((centre, *around))
+    return Division(cells, tuple(members))
 
 
 def material_cells(
