@@ -9,7 +9,7 @@ import numpy as np
 from statorhom.model.eigen import SHIFT
 from statorhom.model.residual_norm import ResidualNorm
 
-SPARE = 4  # Ritz values above the band that may serve as barriers
+SPARE = 2  # Ritz values above the band that may serve as barriers
 
 
 @dataclass(frozen=True)

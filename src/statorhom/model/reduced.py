@@ -21,7 +21,7 @@ from statorhom.model.basis_greedy import local_basis
 from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.harmonic_terms import harmonic_terms
 from statorhom.model.local_basis import LocalBasis
-from statorhom.model.material_cells import Division, MaterialCells, divided
+from statorhom.model.material_cells import Division, MaterialCells, divided, features
 from statorhom.model.material_span import MaterialPoint, MaterialSpan, material_point, material_span
 from statorhom.model.space import Space
 
@@ -48,8 +48,9 @@ class MaterialBox:
 
     def locate(self, point: MaterialPoint) -> tuple[int, int]:
         """Numbers of a material's cell and of its room there."""
-        cell = self.cells.locate(point)
-        return cell, self.rooms[cell].cells.locate(point)
+        described = features(point)
+        cell = self.cells.locate(described)
+        return cell, self.rooms[cell].cells.locate(described)
 
 
 def material_box(

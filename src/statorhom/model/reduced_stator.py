@@ -129,9 +129,8 @@ class ReducedModes:
         batch: ReducedBatch, pairs: BatchPairs
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Eigenvalues (j,), amplitudes (planes, j), problems (j,) and columns (j,) of a batch's modes."""
-        used = int(pairs.counts.max())
-        row, column = np.nonzero(np.arange(used) < pairs.counts[:, None])
-        amplitudes = (batch.profiles @ pairs.vectors[:, :, :used])[row, :, column].T
+        row, column = np.nonzero(pairs.values <= pairs.top)
+        amplitudes = np.matmul(batch.profiles[row], pairs.vectors[row, :, column, None])[..., 0].T
         return pairs.values[row, column], amplitudes, batch.problems[row], column
 
     @cached_property
