@@ -135,7 +135,7 @@ class ReducedModes:
 
     @cached_property
     def certificates(self) -> tuple[np.ndarray, ...]:
-        """Per batch the bounds of the relative frequency errors (b, j); see `eigenvalue_bounds`."""
+        """Per batch the bounds of the relative frequency errors (b, j); see `reduced_batch.certificates`."""
         reference = self.stator.box.training[self.cell][0]
         ratio = stiffness_ratio(self.point, reference)
         shift = norm_shift(self.stator.certified_hz)
@@ -153,8 +153,8 @@ class ReducedModes:
 
     @cached_property
     def largest_certified_error(self) -> float:
-        """Over all modes of the certified band."""
-        top = (2 * np.pi * self.stator.certified_hz) ** 2
+        """Over all modes of the band, as far as bases were made for it."""
+        top = (2 * np.pi * min(self.stator.certified_hz, self.stator.highest_hz)) ** 2
         return max(
             (
                 float(bounds[pairs.values <= top].max(initial=0.0))
