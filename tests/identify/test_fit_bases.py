@@ -53,5 +53,8 @@ def test_the_search_s_basis_is_coarse_and_the_one_around_its_result_exact():
 
 def test_the_basis_around_an_optimum_is_smaller():
     wide, narrow, _ = made()
-    sizes = [np.mean([b.padding.shape[-1] for cell in s.batches for b in cell]) for s in (wide, narrow)]
+    sizes = [
+        np.mean([b.padding.shape[-1] for cell in s.batches for room in cell for b in room])
+        for s in (wide, narrow)
+    ]
     assert sizes[1] < sizes[0]

@@ -7,7 +7,7 @@ from wound_box import draws, winding, wound
 
 from statorhom.materials.hooke import Hooke
 from statorhom.model.affine import Material
-from statorhom.model.material_cells import material_cells, stiffness_ratio
+from statorhom.model.material_cells import divided, features, material_cells, stiffness_ratio
 from statorhom.model.material_span import material_point
 
 REGIONS = ("lamination", "winding", "overhang")
@@ -37,7 +37,7 @@ def test_a_scaled_material_has_its_factor(factor):
 
 
 def test_cells_cover_all_within_the_radius_or_are_as_many_as_allowed():
-    all_points = points(draws(60, 4))
+    all_points = np.array([features(p) for p in points(draws(60, 4))])
     cells, centres = material_cells(all_points, 0.8, 60)
     assert len(set(centres)) == len(centres) == len(cells.centres)
     wide, few = material_cells(all_points, 0.8, 3)
@@ -52,3 +52,15 @@ def test_cells_cover_all_within_the_radius_or_are_as_many_as_allowed():
 def test_orthotropic_materials_have_distances_too():
     material = {r: Material(ORTHOTROPIC.hooke(), STACK.density) for r in REGIONS}
     assert stiffness_ratio(*points([material, material])) == pytest.approx(1.0)
+
+
+def test_every_material_is_a_member_of_its_cell_and_cells_have_enough():
+    all_points = points(draws(60, 4))
+    division = divided(all_points, 0.8, 60)
+    for number, point in enumerate(all_points):
+        assert number in division.members[division.cells.locate(features(point))]
+    assert min(len(members) for members in division.members) >= 12
+    for cell, members in enumerate(division.members):
+        assert division.cells.locate(features(all_points[members[0]])) == cell
+        assert len(set(members)) == len(members)
+    assert [len(members) for members in divided(all_points, np.inf, 60).members] == [60]

@@ -82,6 +82,19 @@ def test_the_certificate_of_a_mode_and_of_all(wound):
     assert 0.0 < max(each) <= solution.largest_certified_error < 1e-2
 
 
+def test_problems_without_modes_in_the_band_have_no_certificate_and_spoil_none(model):
+    """Up to 2500 Hz only some harmonics have modes: the others' values, computed all the same, are not certified."""
+    spaces = [space for order in (0, 2, 3) for space in harmonic_spaces(model.mesh, order)]
+    box = material_box([MATERIALS], model.mesh.regions)
+    problems = [reduce_harmonic(model, s, box, TOP_HZ) for s in spaces]
+    low = reduced_stator(model, box, problems, 2500.0, MATERIALS).solve(MATERIALS)
+    counts = np.concatenate([pairs.counts for pairs in low.pairs])
+    assert 0 < (counts > 0).sum() < len(counts)
+    for pairs, bounds in zip(low.pairs, low.certificates, strict=True):
+        np.testing.assert_array_equal(np.isinf(bounds).all(axis=1), pairs.counts == 0)
+    assert low.largest_certified_error < 1e-5
+
+
 def test_at_its_only_material_the_reduced_stator_is_the_full_one(model, reduced):
     expected = solve_free(model, MATERIALS, TOP_HZ, (0, 2, 3)).modes
     solution = reduced.solve(MATERIALS)

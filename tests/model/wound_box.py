@@ -40,8 +40,9 @@ def wound():
 
 @cache
 def box():
-    """The box in a few cells."""
-    return material_box([winding(np.zeros(3)), *draws(192, 1, 1.2)], wound().mesh.regions, most=6)
+    """The box in a few cells of several rooms."""
+    training = [winding(np.zeros(3)), *draws(192, 1, 1.2)]
+    return material_box(training, wound().mesh.regions, most=6, room_radius=0.7)
 
 
 @cache

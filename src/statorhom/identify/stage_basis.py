@@ -37,12 +37,15 @@ class BasisPlan:
     cells : into which the materials are divided at most; more make an evaluation faster and the bases dearer.
     tolerance : certified relative frequency error to stay below.
     folded : see `material_span`.
+    room_radius : of the rooms into which cells are divided again; infinite for none. What they save in an evaluation
+        is worth their making where there are very many.
     """
 
     training: int
     cells: int
     tolerance: float
     folded: bool = False
+    room_radius: float = np.inf
 
 
 # at the result: a bound, mostly far above the error; and the mesh factors compare the basis with the full model there
@@ -52,7 +55,7 @@ SEARCH = BasisPlan(64, 4, 1e-2)
 SEARCH_OF_BLOCKS = BasisPlan(64, 1, 1e-2, folded=True)
 LOCAL = BasisPlan(16, 4, TOLERANCE)
 LOCAL_OF_BLOCKS = BasisPlan(16, 1, TOLERANCE, folded=True)
-SHARED = BasisPlan(512, 12, 3e-4)
+SHARED = BasisPlan(512, 12, 3e-4, room_radius=0.35)
 
 BasisTask = tuple[AffineModel[PartMesh], Space, MaterialBox, float, float, BasisStore | None]
 
@@ -84,7 +87,9 @@ def reduce_stage(
     store : where bases are kept between runs; None to build them anew.
     step : the band is rounded up to a power of it.
     """
-    box = material_box(training, model.mesh.regions, most=plan.cells, folded=plan.folded)
+    box = material_box(
+        training, model.mesh.regions, most=plan.cells, room_radius=plan.room_radius, folded=plan.folded
+    )
     band = rounded_up(BAND * highest_hz, step)
     # another process may want the same bases at the same time: in different orders, each finds what the other has built
     order = np.random.default_rng().permutation(len(spaces))

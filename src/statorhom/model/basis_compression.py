@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from statorhom.model.reduced_space import ReducedSpace, largest_deviation
 
 
-def compression(
-    space: ReducedSpace, weights: Sequence[np.ndarray], ratios: Sequence[float], tolerance: float
-) -> np.ndarray:
+def compression(space: ReducedSpace, weights: np.ndarray, ratios: np.ndarray, tolerance: float) -> np.ndarray:
     """What of a basis the modes of all training materials need, while they stay certified.
 
     The directions are ordered by their share in the modes' energy (proper orthogonal decomposition), and as many
@@ -20,40 +16,46 @@ def compression(
     Parameters
     ----------
     space : of the whole basis.
-    weights, ratios : of every training material, the reference first.
+    weights, ratios : (n, t) and (n,) of the training materials, the reference first.
     tolerance : certified relative frequency error; where the whole basis does not meet it, all is kept.
 
     Returns
     -------
-    turn : (k, fewer) from the kept vectors to the whole basis.
+    turn : (k, fewer) from the kept vectors, of unit mass, to the whole basis.
     """
-    turn = _by_energy(space, weights)
-    modes = [values[values <= space.top] for values, _ in map(space.pairs, weights)]
+    exact, vectors = space.pairs(weights)
+    ordered = _by_energy(space, weights[0], exact, vectors)
 
     def certified(count: int) -> bool:
-        fewer = space.turned(turn[:, :count])
+        fewer = space.turned(_of_unit_mass(space, weights[0], ordered[:, :count]))
+        pairs = fewer.pairs(weights)
         # a mode that is lost has no certificate
-        return all(
-            largest_deviation(m, fewer.pairs(w)[0]) <= tolerance
-            and fewer.certified_error(w, ratio) <= tolerance
-            for m, w, ratio in zip(modes, weights, ratios, strict=True)
-        )
+        kept = largest_deviation(exact, pairs[0], space.top) <= tolerance
+        return kept and fewer.certified_errors(weights, ratios, pairs).max() <= tolerance
 
-    enough, few = turn.shape[1], 0
-    if not certified(enough):
-        return turn
-    while enough - few > 1:
-        middle = (enough + few) // 2
-        enough, few = (middle, few) if certified(middle) else (enough, middle)
-    return turn[:, :enough]
+    enough, few = ordered.shape[1], 0
+    if certified(enough):
+        while enough - few > 1:
+            middle = (enough + few) // 2
+            enough, few = (middle, few) if certified(middle) else (enough, middle)
+    return _of_unit_mass(space, weights[0], ordered[:, :enough])
 
 
-def _by_energy(space: ReducedSpace, weights: Sequence[np.ndarray]) -> np.ndarray:
-    """Basis of the space (k, k), orthonormal in the reference's energy, the most needed first."""
-    found = []
-    for values, vectors in map(space.pairs, weights):
-        used = int((values <= space.top).sum()) + 1  # the bounds need to know what comes next
-        found.append(vectors[:, :used] / np.sqrt(np.maximum(values[:used], 0.0) + space.shift))
-    K, M = space.matrices(weights[0])
+def _by_energy(
+    space: ReducedSpace, reference: np.ndarray, values: np.ndarray, vectors: np.ndarray
+) -> np.ndarray:
+    """Basis of the space (k, k), orthonormal in the reference's energy, what Ritz pairs need most first."""
+    used = (values <= space.top).sum(axis=1) + 1  # the bounds need to know what comes next
+    found = [
+        v[:, :j] / np.sqrt(np.maximum(mu[:j], 0.0) + space.shift)
+        for mu, v, j in zip(values, vectors, used, strict=True)
+    ]
+    K, M = space.matrices(reference)
     root = np.linalg.cholesky(K + space.shift * M).T
     return np.asarray(np.linalg.solve(root, np.linalg.svd(root @ np.hstack(found))[0]))
+
+
+def _of_unit_mass(space: ReducedSpace, reference: np.ndarray, turn: np.ndarray) -> np.ndarray:
+    """Vectors of the same span that are orthonormal in the reference's mass."""
+    mass = turn.T @ space.matrices(reference)[1] @ turn
+    return np.asarray(turn @ np.linalg.inv(np.linalg.cholesky(mass)).T)

@@ -6,13 +6,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.linalg import eigh
 
 from statorhom.model.back_ends.sturdy import sturdy
 from statorhom.model.basis_compression import compression
 from statorhom.model.eigen import factorize, modes_below
 from statorhom.model.harmonic_terms import HarmonicTerms
-from statorhom.model.local_basis import LocalBasis, norm_shift
+from statorhom.model.local_basis import LocalBasis, RoomBasis, norm_shift
 from statorhom.model.material_cells import stiffness_ratio
 from statorhom.model.material_span import MaterialPoint
 from statorhom.model.reduced_space import ReducedSpace, largest_deviation, symmetric
@@ -22,12 +21,14 @@ from statorhom.model.space import MIRROR
 BEYOND = 1  # modes above the band in every snapshot: the bounds need to know what comes next
 DROP = 0.2  # of the tolerance: the energy below which a new direction may be left out
 BUILT = 0.6  # of the tolerance: what the greedy basis meets before it is compressed to the tolerance
+AT_ONCE = 16  # certificates that are computed side by side
 RESOLVED = 1e-5  # of the tolerance: the part of the energy that residuals need not resolve; gaps magnify it
 
 
 def local_basis(
     terms: HarmonicTerms,
     training: Sequence[MaterialPoint],
+    rooms: Sequence[Sequence[int]],
     highest_hz: float,
     tolerance: float,
     most: int,
@@ -38,6 +39,7 @@ def local_basis(
     ----------
     terms : of the harmonic.
     training : materials of the cell; the norm of the residuals is that of the first.
+    rooms : numbers of each room's training materials.
     highest_hz : upper end of the band in which modes are to be exact.
     tolerance : certified relative frequency error to stay below.
     most : largest number of snapshots.
@@ -54,7 +56,7 @@ def local_basis(
                 break
         if not builder.add_snapshot(worst):
             break
-    return builder.finished()
+    return LocalBasis(builder.basis, tuple(builder.room(list(members)) for members in rooms))
 
 
 class _Builder:
@@ -69,8 +71,8 @@ class _Builder:
     ) -> None:
         self.terms, self.training = terms, training
         self.highest_hz, self.tolerance = highest_hz, tolerance
-        self.weights = [np.r_[terms.span.weights(p), p.density] for p in training]
-        self.ratios = [stiffness_ratio(p, training[0]) for p in training]
+        self.weights = np.array([np.r_[terms.span.weights(p), p.density] for p in training])
+        self.ratios = np.array([stiffness_ratio(p, training[0]) for p in training])
         K, self.metric = terms.matrices(training[0])
         top, shift = float((2 * np.pi * highest_hz) ** 2), norm_shift(highest_hz)
         self.operator = K + shift * self.metric
@@ -88,8 +90,8 @@ class _Builder:
 
     def true_error(self, number: int) -> float:
         """Relative frequency error at a training material, infinite where a mode is missing."""
-        exact = self._full_modes(number)[0]
-        return largest_deviation(exact[exact <= self.space.top], self.space.pairs(self.weights[number])[0])
+        exact, found = self._full_modes(number)[0], self.space.pairs(self.weights[number])[0]
+        return largest_deviation(exact, found, self.space.top)
 
     def add_snapshot(self, number: int) -> bool:
         """Take in a material's modes; False where they bring nothing new."""
@@ -141,17 +143,26 @@ class _Builder:
         Errors mostly fall as the basis grows, so that the earlier largest ones are looked at first; that one above
         the tolerance stays the largest must be seen, but nothing is done until all are known to be below.
         """
-        for number in np.argsort(-errors, kind="stable"):
-            errors[number] = self.space.certified_error(self.weights[number], self.ratios[number])
-            following = np.delete(errors, number)
-            if errors[number] > max(BUILT * self.tolerance, following.max(initial=0.0)):
-                return int(number)
+        order = np.argsort(-errors, kind="stable")
+        for last in range(AT_ONCE, len(order) + AT_ONCE, AT_ONCE):
+            block = order[last - AT_ONCE : last]
+            errors[block] = self.certified_errors(block)
+            if errors[order[:last]].max() > max(
+                BUILT * self.tolerance, errors[order[last:]].max(initial=0.0)
+            ):
+                break
         return int(errors.argmax())
 
-    def finished(self) -> LocalBasis:
-        """The compressed basis, turned into the reference's own Ritz vectors: orthogonal in mass and in energy."""
-        turn = compression(self.space, self.weights, self.ratios, self.tolerance)
-        values, rotation = eigh(*self.space.turned(turn).matrices(self.weights[0]))
+    def certified_errors(self, numbers: np.ndarray) -> np.ndarray:
+        """Certified errors at some training materials."""
+        weights, ratios = self.weights[numbers], self.ratios[numbers]
+        return self.space.certified_errors(weights, ratios, self.space.pairs(weights))
+
+    def room(self, members: list[int]) -> RoomBasis:
+        """What a room needs of the basis, in the reference's own Ritz vectors: orthogonal in mass and in energy."""
+        weights, ratios = self.weights[members], self.ratios[members]
+        turn = compression(self.space, weights, ratios, self.tolerance)
+        values, rotation = self.space.turned(turn).pairs(self.weights[0])
         turn = turn @ rotation
         space = self.space.turned(turn)
         scales = np.abs(self.weights).max(axis=0)
@@ -162,8 +173,6 @@ class _Builder:
             np.maximum(values, 0.0) + space.shift,
             RESOLVED * self.tolerance,
         )
-        error = max(space.certified_error(w, r) for w, r in zip(self.weights, self.ratios, strict=True))
-        projected = space.projected
-        return LocalBasis(
-            self.basis @ turn, projected[: space.directions], projected[space.directions :], residual, error
-        )
+        error = float(space.certified_errors(weights, ratios, space.pairs(weights)).max())
+        stiffness, mass = np.split(space.projected, [space.directions])
+        return RoomBasis(turn, stiffness, mass, residual, error)

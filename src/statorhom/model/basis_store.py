@@ -10,19 +10,20 @@ import hashlib
 import io
 import zipfile
 import zlib
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 
 import numpy as np
 
 from statorhom.mesh.hex_mesh import PartMesh
-from statorhom.model.local_basis import LocalBasis
+from statorhom.model.local_basis import LocalBasis, RoomBasis
 from statorhom.model.reduced import MaterialBox, ReducedHarmonic
 from statorhom.model.residual_norm import ResidualNorm
 from statorhom.model.space import Space
 from statorhom.study.atomic import write_bytes
 
-FORMAT = 2  # raised when the same inputs shall give another basis
+FORMAT = 3  # raised when the same inputs shall give another basis
 _DAMAGED = (
     OSError,
     ValueError,
@@ -33,7 +34,7 @@ _DAMAGED = (
     zipfile.BadZipFile,
     zlib.error,
 )
-_ARRAYS = ("basis", "stiffness", "mass", "factor", "scales", "numbers")
+_ARRAYS = ("turn", "stiffness", "mass", "factor", "scales", "numbers")  # of every room
 
 
 def basis_key(mesh: PartMesh, harmonic: Space, box: MaterialBox, highest_hz: float, tolerance: float) -> str:
@@ -45,7 +46,15 @@ def basis_key(mesh: PartMesh, harmonic: Space, box: MaterialBox, highest_hz: flo
     entries = {region: found.tolist() for region, found in box.span.entries.items()}
     digest.update(
         repr(
-            (*words, box.span.regions, box.span.groups, entries, float(highest_hz), float(tolerance))
+            (
+                *words,
+                box.span.regions,
+                box.span.groups,
+                entries,
+                _rooms(box),
+                float(highest_hz),
+                float(tolerance),
+            )
         ).encode()
     )
     arrays = [part for _, part in sorted(parts.items()) if isinstance(part, np.ndarray)]
@@ -55,6 +64,10 @@ def basis_key(mesh: PartMesh, harmonic: Space, box: MaterialBox, highest_hz: flo
         digest.update(repr((array.dtype.str, array.shape)).encode())
         digest.update(np.ascontiguousarray(array).tobytes())
     return digest.hexdigest()
+
+
+def _rooms(box: MaterialBox) -> list[tuple[tuple[int, ...], ...]]:
+    return [rooms.members for rooms in box.rooms]
 
 
 @dataclass(frozen=True)
@@ -82,15 +95,10 @@ class BasisStore:
         """
         content: dict[str, np.ndarray] = {}
         for i, cell in enumerate(reduced.cells):
-            parts = (
-                cell.basis,
-                cell.stiffness,
-                cell.mass,
-                cell.residual.factor,
-                cell.residual.scales,
-                np.array([cell.residual.dropped, cell.error]),
-            )
-            content |= {f"{name}_{i}": part for name, part in zip(_ARRAYS, parts, strict=True)}
+            content[f"basis_{i}"] = cell.basis
+            for j, room in enumerate(cell.rooms):
+                parts = (*room.arrays, np.array([room.residual.dropped, room.error]))
+                content |= {f"{name}_{i}_{j}": part for name, part in zip(_ARRAYS, parts, strict=True)}
         file = io.BytesIO()
         np.savez(file, allow_pickle=False, **content)
         write_bytes(self.path(key), file.getvalue())
@@ -100,36 +108,45 @@ class BasisStore:
         try:
             with self.path(key).open("rb") as stream, np.load(stream, allow_pickle=False) as file:
                 cells = tuple(
-                    _cell([file[f"{name}_{i}"] for name in _ARRAYS], harmonic, box)
-                    for i in range(len(box.training))
+                    _cell(file, i, len(rooms.members), harmonic, box) for i, rooms in enumerate(box.rooms)
                 )
         except _DAMAGED:
             return None
         return ReducedHarmonic(harmonic, cells, highest_hz)
 
 
-def _cell(arrays: list[np.ndarray], harmonic: Space, box: MaterialBox) -> LocalBasis:
-    """A basis from its arrays.
+def _cell(
+    file: Mapping[str, np.ndarray], number: int, rooms: int, harmonic: Space, box: MaterialBox
+) -> LocalBasis:
+    """The basis of a cell; ValueError if it is none."""
+    basis = file[f"basis_{number}"]
+    _check([basis], [(harmonic.size, basis.shape[-1])], [np.float64])
+    found = []
+    for room in range(rooms):
+        arrays = [file[f"{name}_{number}_{room}"] for name in _ARRAYS]
+        found.append(_room(arrays, basis.shape[1], box))
+    return LocalBasis(basis, tuple(found))
 
-    Raises
-    ------
-    ValueError
-        If they are not what such a basis consists of.
-    """
-    basis, stiffness, mass, factor, scales, numbers = arrays
-    k, s, regions = basis.shape[-1], box.span.size, len(box.span.regions)
-    shapes = ((harmonic.size, k), (s, k, k), (regions, k, k), (s + regions, *factor.shape[1:2], k))
+
+def _room(arrays: list[np.ndarray], cell_size: int, box: MaterialBox) -> RoomBasis:
+    """The basis of a room from its arrays; ValueError if they are not what such a basis consists of."""
+    turn, stiffness, mass, factor, scales, numbers = arrays
+    k, s, regions = turn.shape[-1], box.span.size, len(box.span.regions)
+    terms = s + regions
+    shapes = [(cell_size, k), (s, k, k), (regions, k, k), (terms, *factor.shape[1:2], k), (terms,), (2,)]
+    _check(arrays, shapes, [np.float64] * 3 + [np.float32] + [np.float64] * 2)
+    residual = ResidualNorm(factor, scales, float(numbers[0]))
+    return RoomBasis(turn, stiffness, mass, residual, float(numbers[1]))
+
+
+def _check(arrays: list[np.ndarray], shapes: list[tuple[int, ...]], kinds: Sequence[type]) -> None:
+    """Raise a ValueError unless the arrays have these shapes and types and only numbers; nobody may write to them."""
     sound = (
-        [a.shape for a in (basis, stiffness, mass, factor)] == list(shapes)
-        and scales.shape == (s + regions,)
-        and numbers.shape == (2,)
-        and [a.dtype for a in arrays] == [np.float64] * 3 + [np.float32] + [np.float64] * 2
+        [a.shape for a in arrays] == shapes
+        and [a.dtype for a in arrays] == kinds
         and all(np.isfinite(a).all() for a in arrays)
     )
     if not sound:
         raise ValueError("not a reduced basis")
     for array in arrays:
         array.setflags(write=False)
-    return LocalBasis(
-        basis, stiffness, mass, ResidualNorm(factor, scales, float(numbers[0])), float(numbers[1])
-    )

@@ -36,26 +36,18 @@ def eigenvalue_drops(values: np.ndarray, squared: np.ndarray, shift: float) -> n
     drops : (…, J), infinite where nothing is known, as of the last one.
     """
     known = np.isfinite(values)
-    mu = np.where(known, values, 1.0) + shift
+    mu = np.where(known, values, 0.0) + shift
     share = squared / mu  # ε²
-    barrier = mu / (1.0 + np.sqrt(share))
-    # axes: …, barrier l, vector i; only i < l lies below a barrier
-    distance = barrier[..., :, None] - mu[..., None, :]
-    count = mu.shape[-1]
-    below = np.tri(count, k=-1, dtype=bool) & known[..., :, None]
-    usable = below & (distance > 0.0)
-    safe = np.where(usable, distance, shift)
-    terms = np.where(usable, share[..., None, :] / safe**2, 0.0)
-    t = barrier[..., :, None] ** 2 * np.cumsum(terms[..., ::-1], axis=-1)[..., ::-1]
-    drop = mu[..., None, :] * t * safe / (safe * (1.0 + t) + mu[..., None, :])
-    # a window that holds a vector above its barrier tells nothing: such vectors come last
-    return np.asarray(np.where(_whole(usable, below), drop, np.inf).min(axis=-2))
-
-
-def _whole(usable: np.ndarray, below: np.ndarray) -> np.ndarray:
-    """Which windows, from a vector up to its barrier, hold usable vectors only."""
-    spoilt = np.logical_or.accumulate((below & ~usable)[..., ::-1], axis=-1)[..., ::-1]
-    return np.asarray(usable & ~spoilt)
+    barrier = np.where(known, mu / (1.0 + np.sqrt(share)), 0.0)
+    # axes: …, barrier l, vector i; a barrier serves the windows that end just below it, where that vector lies below
+    serves = np.zeros(barrier.shape, bool)
+    serves[..., 1:] = barrier[..., 1:] > mu[..., :-1]
+    window = serves[..., None] & np.tri(mu.shape[-1], k=-1, dtype=bool)
+    distance = np.where(window, barrier[..., None] - mu[..., None, :], np.inf)
+    terms = share[..., None, :] / distance**2
+    t = barrier[..., None] ** 2 * np.cumsum(terms[..., ::-1], axis=-1)[..., ::-1]
+    drop = mu[..., None, :] * t / (1.0 + t + mu[..., None, :] / distance)
+    return np.asarray(np.where(window, drop, np.inf).min(axis=-2))
 
 
 def frequency_errors(values: np.ndarray, drops: np.ndarray) -> np.ndarray:

@@ -14,6 +14,9 @@ import numpy as np
 from statorhom.model.material_span import MaterialPoint
 
 DIAGONAL = [0, 1, 2, 6, 7, 8]  # of the nine Hooke entries
+# A cell is trained beyond its border, on materials that lie not much farther from its centre than from their own, and
+# on a few of the nearest in any case: where materials are rare, a cell's own ones do not show what lies between.
+OVERLAP, LEAST = 1.3, 12
 COUPLED = ((3, 0, 1), (4, 0, 2), (5, 1, 2))  # an off-diagonal entry and the two diagonal ones that bound it
 
 
@@ -26,15 +29,10 @@ def features(point: MaterialPoint) -> np.ndarray:
 
 def stiffness_ratio(point: MaterialPoint, reference: MaterialPoint) -> float:
     """Largest α with K + σM ≥ α (K + σM of the reference), for every mesh and every shift σ ≥ 0."""
-    block, of_reference = _normal_blocks(point.hooke), _normal_blocks(reference.hooke)
-    root = np.linalg.inv(np.linalg.cholesky(of_reference))
-    normal = np.linalg.eigvalsh(root @ block @ root.transpose(0, 2, 1)).min()
+    root = reference.normal_root
+    normal = np.linalg.eigvalsh(root @ point.normal_blocks @ root.transpose(0, 2, 1)).min()
     shear = (point.hooke[:, 6:] / reference.hooke[:, 6:]).min()
     return float(min(normal, shear, (point.density / reference.density).min()))
-
-
-def _normal_blocks(hooke: np.ndarray) -> np.ndarray:
-    return hooke[:, [0, 3, 4, 3, 1, 5, 4, 5, 2]].reshape(-1, 3, 3)
 
 
 @dataclass(frozen=True)
@@ -48,24 +46,49 @@ class MaterialCells:
 
     centres: np.ndarray
 
-    def locate(self, point: MaterialPoint) -> int:
-        """Number of the cell."""
-        return int(self.distances(point).argmin())
+    def locate(self, described: np.ndarray) -> int:
+        """Number of the cell of a material's features."""
+        return int(self.distances(described).argmin())
 
-    def distances(self, point: MaterialPoint) -> np.ndarray:
-        """Distances to all centres (cells,)."""
-        return np.asarray(np.abs(self.centres - features(point)).max(axis=1))
+    def distances(self, described: np.ndarray) -> np.ndarray:
+        """Distances of materials (…, features) to all centres, (…, cells)."""
+        return np.asarray(np.abs(self.centres - described[..., None, :]).max(axis=-1))
 
 
-def material_cells(
-    points: Sequence[MaterialPoint], radius: float, most: int
-) -> tuple[MaterialCells, list[int]]:
-    """Cells that cover materials, and the number of the material in the middle of each.
+@dataclass(frozen=True)
+class Division:
+    """Materials divided into cells.
+
+    Parameters
+    ----------
+    cells : where a material belongs.
+    members : per cell the numbers of the materials in and around it, the one in its middle first.
+    """
+
+    cells: MaterialCells
+    members: tuple[tuple[int, ...], ...]
+
+
+def divided(points: Sequence[MaterialPoint], radius: float, most: int) -> Division:
+    """Divide materials, the first of which is the middle of the first cell."""
+    described = np.array([features(p) for p in points])
+    cells, centres = material_cells(described, radius, most)
+    distance = cells.distances(described)
+    near = distance <= OVERLAP * distance.min(axis=1, keepdims=True)
+    members = []
+    for cell, centre in enumerate(centres):
+        order = np.argsort(distance[:, cell], kind="stable").tolist()
+        around = [i for rank, i in enumerate(order) if i != centre and (near[i, cell] or rank < LEAST)]
+        members.append((centre, *around))
+    return Division(cells, tuple(members))
+
+
+def material_cells(described: np.ndarray, radius: float, most: int) -> tuple[MaterialCells, list[int]]:
+    """Cells that cover materials of given features, and the number of the material in the middle of each.
 
     The next centre is the material farthest from all centres (Gonzalez 1985: at most twice the best radius), until
     none is farther than `radius` or there are `most` cells.
     """
-    described = np.array([features(p) for p in points])
     chosen = [0]
     distance = np.abs(described - described[0]).max(axis=1)
     while distance.max() > radius and len(chosen) < most:

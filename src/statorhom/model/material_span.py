@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -31,6 +32,16 @@ class MaterialPoint:
 
     hooke: np.ndarray
     density: np.ndarray
+
+    @property
+    def normal_blocks(self) -> np.ndarray:
+        """Hooke's matrices of the normal strains (regions, 3, 3)."""
+        return self.hooke[:, [0, 3, 4, 3, 1, 5, 4, 5, 2]].reshape(-1, 3, 3)
+
+    @cached_property
+    def normal_root(self) -> np.ndarray:
+        """Inverse Cholesky factors of these: everything is measured against a few references."""
+        return np.linalg.inv(np.linalg.cholesky(self.normal_blocks))
 
 
 def material_point(materials: Materials, regions: Sequence[str]) -> MaterialPoint:

@@ -3,7 +3,9 @@
 The box is divided into cells of similar materials, and every cell has a small basis of its own (Eftang, Patera and
 Rønquist 2010): a basis for everything from loose to bonded sheets, or from bare wires to cast resin, would hold
 hundreds of vectors. The basis of a cell collects the modes of a few of its materials, each chosen where the certified
-error is largest (greedy). The certificate is described in `eigenvalue_bounds`.
+error is largest (greedy). A cell may be divided again into rooms, each with as few combinations of these vectors as
+its own materials need: that costs no further solution of the full model, and evaluations become cheaper still. The
+certificate is described in `eigenvalue_bounds`.
 """
 
 from __future__ import annotations
@@ -19,31 +21,36 @@ from statorhom.model.basis_greedy import local_basis
 from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.harmonic_terms import harmonic_terms
 from statorhom.model.local_basis import LocalBasis
-from statorhom.model.material_cells import MaterialCells, material_cells
+from statorhom.model.material_cells import Division, MaterialCells, divided, features
 from statorhom.model.material_span import MaterialPoint, MaterialSpan, material_point, material_span
 from statorhom.model.space import Space
 
 RADIUS = 1.0  # of the cells: energies within one differ by about this much in their logarithm
 MOST_CELLS = 12  # more make an evaluation faster and the bases dearer
-# A cell is trained beyond its border, on materials that lie not much farther from its centre than from their own, and
-# on a few of the nearest in any case: where materials are rare, a cell's own ones do not show what lies between.
-OVERLAP, LEAST = 1.3, 12
 
 
 @dataclass(frozen=True)
 class MaterialBox:
-    """Training materials divided into cells.
+    """Training materials divided into cells, and every cell into rooms.
 
     Parameters
     ----------
     span : directions in which they move.
     cells : where a material belongs.
     training : per cell materials in and around it, the reference first.
+    rooms : per cell the division of its training materials.
     """
 
     span: MaterialSpan
     cells: MaterialCells
     training: tuple[tuple[MaterialPoint, ...], ...]
+    rooms: tuple[Division, ...]
+
+    def locate(self, point: MaterialPoint) -> tuple[int, int]:
+        """Numbers of a material's cell and of its room there."""
+        described = features(point)
+        cell = self.cells.locate(described)
+        return cell, self.rooms[cell].cells.locate(described)
 
 
 def material_box(
@@ -52,19 +59,24 @@ def material_box(
     radius: float = RADIUS,
     most: int = MOST_CELLS,
     *,
+    room_radius: float = np.inf,
     folded: bool = False,
 ) -> MaterialBox:
-    """Divide materials that cover a box; the first is its centre; for `folded` see `material_span`."""
+    """Divide materials that cover a box.
+
+    Parameters
+    ----------
+    training : materials; the first is the middle of the box.
+    regions : in the order of all arrays.
+    radius, most : of the cells, and how many at most.
+    room_radius : of the rooms; infinite for cells of one room each.
+    folded : see `material_span`.
+    """
     points = [material_point(materials, regions) for materials in training]
-    cells, centres = material_cells(points, radius, most)
-    distance = np.array([cells.distances(point) for point in points])
-    near = distance <= OVERLAP * distance.min(axis=1, keepdims=True)
-    parts = []
-    for cell, centre in enumerate(centres):
-        order = np.argsort(distance[:, cell], kind="stable")
-        chosen = [i for rank, i in enumerate(order) if i != centre and (near[i, cell] or rank < LEAST)]
-        parts.append(tuple(points[i] for i in (centre, *chosen)))
-    return MaterialBox(material_span(points, regions, folded=folded), cells, tuple(parts))
+    division = divided(points, radius, most)
+    parts = tuple(tuple(points[i] for i in members) for members in division.members)
+    rooms = tuple(divided(part, room_radius, len(part)) for part in parts)
+    return MaterialBox(material_span(points, regions, folded=folded), division.cells, parts, rooms)
 
 
 @dataclass(frozen=True)
@@ -109,11 +121,11 @@ def reduce_harmonic(
     """
     with one_blas_thread():
         terms = harmonic_terms(model, harmonic, box.span)
-        cells = tuple(local_basis(terms, part, highest_hz, tolerance, most) for part in box.training)
-    return ReducedHarmonic(harmonic, tuple(_frozen(cell) for cell in cells), highest_hz)
-
-
-def _frozen(cell: LocalBasis) -> LocalBasis:
-    for array in (cell.basis, cell.stiffness, cell.mass, cell.residual.factor, cell.residual.scales):
-        np.asarray(array).setflags(write=False)
-    return cell
+        cells = tuple(
+            local_basis(terms, part, rooms.members, highest_hz, tolerance, most)
+            for part, rooms in zip(box.training, box.rooms, strict=True)
+        )
+    for cell in cells:
+        for array in cell.arrays:
+            array.setflags(write=False)
+    return ReducedHarmonic(harmonic, cells, highest_hz)

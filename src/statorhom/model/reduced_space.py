@@ -8,7 +8,7 @@ import numpy as np
 
 from statorhom.model.eigenvalue_bounds import eigenvalue_drops, frequency_errors
 from statorhom.model.local_basis import SPARE
-from statorhom.model.ritz import ritz_pairs
+from statorhom.model.ritz import UNIT_MASS, ritz_pairs
 
 
 @dataclass(frozen=True)
@@ -36,27 +36,39 @@ class ReducedSpace:
         return int(self.projected.shape[-1])
 
     def matrices(self, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """K and M for weights (t,) of the terms."""
+        """K and M (…, k, k) for weights (…, t) of the terms."""
         s = self.directions
-        K, M = (np.tensordot(weights[a], self.projected[a], axes=1) for a in (slice(s), slice(s, None)))
-        return np.asarray(K), np.asarray(M)
+        K = np.tensordot(weights[..., :s], self.projected[:s], axes=1)
+        return np.asarray(K), np.asarray(np.tensordot(weights[..., s:], self.projected[s:], axes=1))
 
     def pairs(self, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """All Ritz pairs."""
-        return ritz_pairs(*self.matrices(weights))
+        """All Ritz pairs (…, k) and (…, k, k) for weights (…, t)."""
+        K, M = self.matrices(weights)
+        # a box's materials mostly have the densities at which the basis has unit mass
+        unit = np.abs(M - np.eye(self.size)).max(initial=0.0) < UNIT_MASS
+        return ritz_pairs(K, None if unit else M)
 
-    def certified_error(self, weights: np.ndarray, ratio: float) -> float:
-        """Largest certified relative frequency error in the band; `ratio`: see `stiffness_ratio`."""
-        values, vectors = self.pairs(weights)
-        used = int((values <= self.top).sum()) + SPARE
-        values, vectors = values[:used], vectors[:, :used]
-        parts = weights[:, None, None] * vectors
-        parts[self.directions :] *= -values
-        z = parts.reshape(-1, parts.shape[-1])
+    def certified_errors(
+        self, weights: np.ndarray, ratios: np.ndarray, pairs: tuple[np.ndarray, np.ndarray]
+    ) -> np.ndarray:
+        """Largest certified relative frequency error in the band of each of n materials.
+
+        Parameters
+        ----------
+        weights : (n, t).
+        ratios : (n,) see `stiffness_ratio`.
+        pairs : the Ritz pairs at these weights.
+        """
+        values, vectors = pairs
+        used = int((values <= self.top).sum(axis=1).max()) + SPARE
+        values, vectors = values[:, :used], vectors[:, :, :used]
+        parts = weights[:, :, None, None] * vectors[:, None]
+        parts[:, self.directions :] *= -values[:, None, None]
+        z = parts.reshape(len(weights), -1, values.shape[1])
         # rounding of the products, 1e-16 of the largest, is far below the squares that matter
-        squared = np.einsum("ij,ij->j", z, self.gram.reshape(len(z), -1) @ z) / ratio
+        squared = np.einsum("nij,nij->nj", z, self.gram.reshape(z.shape[1], -1) @ z) / ratios[:, None]
         errors = frequency_errors(values, eigenvalue_drops(values, np.maximum(squared, 0.0), self.shift))
-        return float(errors[values <= self.top].max(initial=0.0))
+        return np.asarray(np.where(values <= self.top, errors, 0.0).max(axis=1))
 
     def turned(self, turn: np.ndarray) -> ReducedSpace:
         """The space of ΦT for T (k, …)."""
@@ -66,12 +78,18 @@ class ReducedSpace:
         return ReducedSpace(projected, gram, self.directions, self.top, self.shift)
 
 
-def largest_deviation(exact: np.ndarray, found: np.ndarray) -> float:
-    """Largest relative frequency error of Ritz values; infinite where modes are missing."""
-    if len(found) < len(exact):
+def largest_deviation(exact: np.ndarray, found: np.ndarray, top: float) -> float:
+    """Largest relative frequency error of Ritz values (…, k) of the eigenvalues (…, j) up to `top`.
+
+    Infinite where there are fewer Ritz values than eigenvalues.
+    """
+    inside = exact <= top
+    used = int(inside.sum(axis=-1).max())
+    if found.shape[-1] < used:
         return float("inf")
-    drops = np.maximum(found[: len(exact)] - exact, 0.0)
-    return float(frequency_errors(found[: len(exact)], drops).max(initial=0.0))
+    inside, values = inside[..., :used], found[..., :used]
+    errors = frequency_errors(values, np.maximum(values - exact[..., :used], 0.0))
+    return float(np.where(inside, errors, 0.0).max(initial=0.0))
 
 
 def symmetric(matrices: np.ndarray) -> np.ndarray:

@@ -11,13 +11,13 @@ import numpy as np
 from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.blas_threads import one_blas_thread
-from statorhom.model.local_basis import norm_shift
+from statorhom.model.local_basis import LocalBasis, norm_shift
 from statorhom.model.material_cells import stiffness_ratio
 from statorhom.model.material_span import MaterialPoint, material_point
 from statorhom.model.problems import profile_of
 from statorhom.model.radial_profile import node_planes
 from statorhom.model.reduced import MaterialBox, ReducedHarmonic
-from statorhom.model.reduced_batch import BatchPairs, ReducedBatch, reduced_batches
+from statorhom.model.reduced_batch import BatchPairs, ReducedBatch, certificates, reduced_batches
 from statorhom.model.space import MIRROR
 from statorhom.model.stator_mode import StatorMode, modes_of_parities, name_modes
 
@@ -42,7 +42,7 @@ class ReducedStator:
     ----------
     box : materials that it was made for.
     kinds : per problem.
-    batches : per cell the problems side by side.
+    batches : per cell and room the problems side by side.
     densities : at which the bases have unit mass.
     volumes : region → volume (m³).
     highest_hz : upper end of the band that is evaluated.
@@ -52,7 +52,7 @@ class ReducedStator:
 
     box: MaterialBox
     kinds: tuple[ProblemKind, ...]
-    batches: tuple[tuple[ReducedBatch, ...], ...]
+    batches: tuple[tuple[tuple[ReducedBatch, ...], ...], ...]
     densities: np.ndarray
     volumes: Mapping[str, float]
     highest_hz: float
@@ -68,16 +68,16 @@ class ReducedStator:
             If a material is of another symmetry than those that the bases were made for.
         """
         point = material_point(materials, self.box.span.regions)
-        cell = self.box.cells.locate(point)
+        cell, room = self.box.locate(point)
         weights = self.box.span.weights(point)
         unit = bool(np.all(np.abs(point.density / self.densities - 1.0) < UNIT_DENSITY))
         top = (2 * np.pi * self.highest_hz) ** 2
         with one_blas_thread():
             pairs = tuple(
-                batch.pairs(weights, point.density, top, unit_mass=unit) for batch in self.batches[cell]
+                batch.pairs(weights, point.density, top, unit_mass=unit) for batch in self.batches[cell][room]
             )
         mass = sum(materials[region].density * volume for region, volume in self.volumes.items())
-        return ReducedModes(self, point, cell, weights, mass, pairs)
+        return ReducedModes(self, point, cell, room, weights, mass, pairs)
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ class ReducedModes:
     Parameters
     ----------
     stator : the reduced stator.
-    point, cell, weights : materials, their cell and their weights in the span.
+    point, cell, room, weights : materials, their cell, their room there and their weights in the span.
     mass : of the stator (kg).
     pairs : Ritz pairs of every batch.
     """
@@ -95,6 +95,7 @@ class ReducedModes:
     stator: ReducedStator
     point: MaterialPoint
     cell: int
+    room: int
     weights: np.ndarray
     mass: float
     pairs: tuple[BatchPairs, ...]
@@ -102,7 +103,7 @@ class ReducedModes:
     @property
     def batches(self) -> tuple[ReducedBatch, ...]:
         """The problems, in the order of `pairs`."""
-        return self.stator.batches[self.cell]
+        return self.stator.batches[self.cell][self.room]
 
     @cached_property
     def modes(self) -> tuple[StatorMode, ...]:
@@ -128,22 +129,22 @@ class ReducedModes:
         batch: ReducedBatch, pairs: BatchPairs
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Eigenvalues (j,), amplitudes (planes, j), problems (j,) and columns (j,) of a batch's modes."""
-        used = int(pairs.counts.max())
-        row, column = np.nonzero(np.arange(used) < pairs.counts[:, None])
-        amplitudes = (batch.profiles @ pairs.vectors[:, :, :used])[row, :, column].T
+        row, column = np.nonzero(pairs.values <= pairs.top)
+        amplitudes = np.matmul(batch.profiles[row], pairs.vectors[row, :, column, None])[..., 0].T
         return pairs.values[row, column], amplitudes, batch.problems[row], column
 
     @cached_property
     def certificates(self) -> tuple[np.ndarray, ...]:
-        """Per batch the bounds of the relative frequency errors (b, j); see `eigenvalue_bounds`."""
+        """Per batch the bounds of the relative frequency errors (b, j); see `reduced_batch.certificates`."""
         reference = self.stator.box.training[self.cell][0]
         ratio = stiffness_ratio(self.point, reference)
         shift = norm_shift(self.stator.certified_hz)
         with one_blas_thread():
-            return tuple(
-                batch.certificate(pairs, self.weights, self.point.density, ratio, shift)
+            squared = [
+                batch.squared_residuals(pairs, self.weights, self.point.density, ratio, shift)
                 for batch, pairs in zip(self.batches, self.pairs, strict=True)
-            )
+            ]
+        return certificates(self.pairs, squared, shift)
 
     def certified_error(self, mode: StatorMode) -> float:
         """By how much at most a mode's frequency lies above the full model's, relative."""
@@ -152,8 +153,8 @@ class ReducedModes:
 
     @cached_property
     def largest_certified_error(self) -> float:
-        """Over all modes of the certified band."""
-        top = (2 * np.pi * self.stator.certified_hz) ** 2
+        """Over all modes of the band, as far as bases were made for it."""
+        top = (2 * np.pi * min(self.stator.certified_hz, self.stator.highest_hz)) ** 2
         return max(
             (
                 float(bounds[pairs.values <= top].max(initial=0.0))
@@ -199,13 +200,15 @@ def reduced_stator(
     densities = material_point(typical, box.span.regions).density
     profile = profile_of(model.mesh)
     batches = []
-    for cell in range(len(box.training)):
+    for cell, rooms in enumerate(box.rooms):
         bases = [p.cells[cell] for p in problems]
-        profiles = [
+        seen = [
             profile.orders(p.harmonic, p.harmonic.expand(b.basis))
             for p, b in zip(problems, bases, strict=True)
         ]
-        batches.append(reduced_batches(bases, profiles, densities))
+        batches.append(
+            tuple(_room_batches(bases, seen, room, densities) for room in range(len(rooms.members)))
+        )
     kinds = tuple(
         ProblemKind(h.order, h.multiplicity, h.copies, h.parity) for h in (p.harmonic for p in problems)
     )
@@ -214,3 +217,10 @@ def reduced_stator(
     return ReducedStator(
         box, kinds, tuple(batches), densities, dict(model.volumes), highest_hz, certified, error
     )
+
+
+def _room_batches(
+    bases: Sequence[LocalBasis], profiles: Sequence[np.ndarray], room: int, densities: np.ndarray
+) -> tuple[ReducedBatch, ...]:
+    rooms = [basis.rooms[room] for basis in bases]
+    return reduced_batches(rooms, [p @ r.turn for p, r in zip(profiles, rooms, strict=True)], densities)
