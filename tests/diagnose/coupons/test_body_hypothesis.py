@@ -46,7 +46,7 @@ def seen(plain: BodyHypothesis) -> BodyHypothesis:
 
 
 def with_lump(h: BodyHypothesis) -> BodyHypothesis:
-    [lump] = [c for c in all_candidates(h.study.files) if c.effect == "attached_mass"]
+    lump, _ = [c for c in all_candidates(h.study.files) if c.effect == "attached_mass"]
     return replace(h, candidates=(lump,), held=None)
 
 
