@@ -81,7 +81,7 @@ def _shape(
         + wide**2
         + SHAPE_OWN**2
         + (SHAPE_PART * seen) ** 2
-        + _mixing(stage, test, number, len(W)) ** 2
+        + _mixing(stage, test, number, len(W), float(predicted.own[partner])) ** 2
     )
     return [
         Feature("shape", test.name, key, float(seen[i]), float(model[i]), float(sd[i]))
@@ -97,11 +97,12 @@ def _nearest(stage: BodyStage, test: MeasuredTest, number: int, count: int) -> l
     return sorted((first + np.argsort(away)[: NEIGHBOURS + 1]).tolist())
 
 
-def _mixing(stage: BodyStage, test: MeasuredTest, number: int, count: int) -> FloatArray:
-    """How much of other modes unevenness mixes into a measured one."""
+def _mixing(stage: BodyStage, test: MeasuredTest, number: int, count: int, own: float) -> FloatArray:
+    """How much of other modes unevenness mixes into a measured one, and what the mesh gets wrong of it alone."""
+    uneven = float(np.hypot(UNEVEN, 2.0 * own))
     values = stage.body.basis.reference_hz[:count] ** 2
-    own = test.modes[number].frequency_hz ** 2
-    return np.asarray(UNEVEN * own / np.maximum(np.abs(values - own), UNEVEN * own))
+    square = test.modes[number].frequency_hz ** 2
+    return np.asarray(uneven * square / np.maximum(np.abs(values - square), uneven * square))
 
 
 def _shift(
