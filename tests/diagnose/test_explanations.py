@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from statorhom.diagnose.explanations import Explanation
+from statorhom.diagnose.explanations import PAIR_GAIN, Explanation, explained
 from statorhom.diagnose.refit import Refit
+from statorhom.physics.candidate import Candidate
 
 
 def features(residuals: list[float]) -> list[SimpleNamespace]:
@@ -69,3 +70,13 @@ def test_the_rest_is_held_to_its_own_distribution() -> None:
     rng = np.random.default_rng(3)
     chances = [with_residuals(rng.standard_normal(12).tolist()).adequacy_but_one for _ in range(200)]
     assert np.mean(np.array(chances) < 0.1) == pytest.approx(0.1, abs=0.06)
+
+
+def test_two_on_both_sides_have_to_gain_what_a_second_effect_has_to() -> None:
+    def evidence(candidate: Candidate) -> float:
+        best = SimpleNamespace(hypothesis=SimpleNamespace(candidates=(candidate,)), log_evidence=-3.0)
+        return explained(best, {"lump": 2}).log_evidence  # type: ignore[arg-type]
+
+    one, two = (evidence(Candidate("lump", "wing", (), both_sides=b)) for b in (False, True))
+    assert one == pytest.approx(-3.0 - np.log(2.0))
+    assert one - two == pytest.approx(PAIR_GAIN)

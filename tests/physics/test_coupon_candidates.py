@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from coupon_study import BEAM, PLATE, study_text, write_study
-from statorhom.physics.library import all_candidates, library
+from statorhom.physics.library import all_candidates, candidates_of, library
 from statorhom.physics.plan import WingPlan, plan_of
 from statorhom.study.study import StudyFiles, load_study
 from wing_study import write_wing
@@ -39,13 +39,24 @@ def test_a_wing_is_offered_its_weight_but_no_dimension(tmp_path: Path) -> None:
 
 def test_a_lump_acts_where_its_parameters_say(tmp_path: Path) -> None:
     files = coupon(tmp_path, "plate", PLATE)
-    [lump] = [c for c in all_candidates(files) if c.effect == "attached_mass"]
+    lump, _ = [c for c in all_candidates(files) if c.effect == "attached_mass"]
     assert lump.repeats
     values = {"mass_kg": 0.01, "x_m": 0.1, "y_m": 0.05}
     [attached] = library()["attached_mass"].action(lump, values, files).attachments
     assert attached.place == (0.1, 0.05, 0.004)
     assert attached.mass_kg == 0.01
     assert attached.stiffness == (0.0, 0.0, 0.0)
+
+
+def test_two_lumps_on_both_sides_are_one_candidate_that_no_study_declares(tmp_path: Path) -> None:
+    files = coupon(tmp_path, "plate", PLATE)
+    [pair] = [c for c in all_candidates(files) if c.both_sides]
+    assert pair not in candidates_of(library()["attached_mass"], files)
+    values = {"mass_kg": 0.01, "x_m": 0.1, "y_m": 0.05}
+    right, left = library()["attached_mass"].action(pair, values, files).attachments
+    assert (right.mass_kg, left.mass_kg) == (0.01, 0.01)
+    assert right.place == (0.1, 0.05, 0.004)
+    assert left.place == pytest.approx((0.2, 0.05, 0.004))
 
 
 def test_a_suspension_holds_both_sides_with_half_each(tmp_path: Path) -> None:

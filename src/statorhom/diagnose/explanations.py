@@ -87,9 +87,13 @@ def nothing(base: Refit) -> Explanation:
 
 
 def explained(best: Refit, counts: dict[str, int]) -> Explanation:
-    """A refit with the prior over the effects' candidates."""
+    """A refit with the prior over the effects' candidates; two of one on both sides have to gain what a second has to.
+
+    To the frequencies of a symmetric body one lump and two halves of it on both sides look almost the same.
+    """
     candidates = best.hypothesis.candidates
     prior = -sum(float(np.log(max(1, counts.get(c.effect, 1)))) for c in candidates)
+    prior -= PAIR_GAIN * sum(c.both_sides for c in candidates)
     return Explanation(candidates, best, best.log_evidence + prior)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.features import SPLIT_PART, Feature
 from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.sides import one_by_one, opposite_location
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.declared import DeclaredEffect
 from statorhom.physics.library import library
@@ -37,28 +38,32 @@ def effect_results(
 ) -> tuple[EffectResult, ...]:
     """The explanation's effects as the file names them."""
     r = explanation.refit
+    files = r.hypothesis.study.files
     found = []
     for number, (candidate, values) in enumerate(
         zip(explanation.candidates, r.hypothesis.effect_values(r.z), strict=True)
     ):
         effect = library()[candidate.effect]
         intervals = _intervals(explanation, number)
+        place = located(explanation, number)
+        places = (place, opposite_location(place, files)) if candidate.both_sides else (place,)
         parameters: dict[str, Estimated | float | str] = {}
         for name, value in effect.reported(candidate, values).items():
             known = intervals.get(name)
             parameters[name] = value if known is None else Estimated(value=value, ci90=known)
-        found.append(
+        found += [
             EffectResult(
                 effect=candidate.effect,
                 stage=candidate.stage,
                 region=candidate.region,
                 test=candidate.test,
-                location=located(explanation, number),
+                location=location,
                 parameters=parameters,
                 probability=probability,
-                note=effect.words(r.hypothesis.study.files).note,
+                note=effect.words(files).note,
             )
-        )
+            for location in places
+        ]
     return tuple(found)
 
 
@@ -73,8 +78,9 @@ def as_declared(explanation: Explanation, located: Located) -> tuple[DeclaredEff
         if isinstance(place, Location) and place.angle_deg is not None:
             # the likeliest of the angles that splits alone do not tell apart
             values = {**values, "angle_rad": float(np.deg2rad(place.angle_deg))}
-        action = library()[candidate.effect].action(candidate, values, r.hypothesis.study.files)
-        found.append(DeclaredEffect(candidate, values, action))
+        files = r.hypothesis.study.files
+        for one, own in one_by_one(candidate, values, files):
+            found.append(DeclaredEffect(one, own, library()[one.effect].action(one, own, files)))
     return tuple(found)
 
 

@@ -19,6 +19,7 @@ class Candidate:
     region, test : where it is confined to one.
     choice : what else tells it from the effect's other candidates (the input's key, the harmonic, a mode).
     repeats : whether a second one of the same effect may be at another place.
+    both_sides : whether it is two of the same size, at the place and at its mirror image about the body's middle.
     """
 
     effect: str
@@ -28,11 +29,13 @@ class Candidate:
     test: str | None = None
     choice: tuple[tuple[str, str | int], ...] = ()
     repeats: bool = False
+    both_sides: bool = False
 
     @property
     def label(self) -> str:
         """One line that tells it from all others."""
         parts = [self.stage, self.region, self.test, *(f"{k} {v}" for k, v in self.choice)]
+        parts += ["both sides"] if self.both_sides else []
         return f"{self.effect} ({', '.join(p for p in parts if p)})"
 
     @property

@@ -53,6 +53,10 @@ class Effect(ABC):
         """The same of a study of a plate, a beam or a wing; none where the effect is one of stators alone."""
         return ()
 
+    def coupon_pairs(self, files: StudyFiles) -> tuple[Candidate, ...]:  # noqa: ARG002
+        """Two of it on both sides of such a body, as fins are; none where that is no more likely than any two."""
+        return ()
+
     @abstractmethod
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
         """What it changes at values of its parameters (by name, in their units)."""

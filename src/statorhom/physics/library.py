@@ -35,9 +35,12 @@ def library() -> dict[str, Effect]:
 
 def all_candidates(files: StudyFiles) -> tuple[Candidate, ...]:
     """Everything that the library can say of a study."""
-    return tuple(candidate for effect in library().values() for candidate in candidates_of(effect, files))
+    found = [candidate for effect in library().values() for candidate in candidates_of(effect, files)]
+    if files.drawing.kind != STATOR:
+        found += [candidate for effect in library().values() for candidate in effect.coupon_pairs(files)]
+    return tuple(found)
 
 
 def candidates_of(effect: Effect, files: StudyFiles) -> tuple[Candidate, ...]:
-    """What an effect can be in a study, by the kind of body that the study is of."""
+    """What an effect can be in a study, by the kind of body that the study is of; two of it are declared as two."""
     return effect.candidates(files) if files.drawing.kind == STATOR else effect.coupon_candidates(files)

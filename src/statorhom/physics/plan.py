@@ -33,6 +33,12 @@ class Plan(Protocol):
     def both_sides(self, values: Mapping[str, float]) -> tuple[Place, Place]:
         """The same and its mirror image about the middle of the longer side."""
 
+    def opposite(self, values: Mapping[str, float]) -> dict[str, float]:
+        """An effect's parameters with its place at that mirror image."""
+
+    def opposite_point(self, x: float, y: float) -> tuple[float, float]:
+        """Mirror image of a point (m)."""
+
     @property
     def mirrored(self) -> tuple[str, ...]:
         """Parameters whose mirror image about the middle of their range is one of the body too."""
@@ -79,8 +85,15 @@ class BlockPlan:
 
     def both_sides(self, values: Mapping[str, float]) -> tuple[Place, Place]:
         """x and length - x."""
-        x, y, z = self.on_top(values)
-        return (x, y, z), (self.length - x, y, z)
+        return self.on_top(values), self.on_top(self.opposite(values))
+
+    def opposite(self, values: Mapping[str, float]) -> dict[str, float]:
+        """At length - x."""
+        return {**values, "x_m": self.length - values["x_m"]}
+
+    def opposite_point(self, x: float, y: float) -> tuple[float, float]:
+        """At length - x."""
+        return self.length - x, y
 
     @property
     def radii(self) -> tuple[float, float]:
@@ -120,8 +133,15 @@ class WingPlan:
 
     def both_sides(self, values: Mapping[str, float]) -> tuple[Place, Place]:
         """y and -y."""
-        x, y, z = self.on_top(values)
-        return (x, y, z), (x, -y, z)
+        return self.on_top(values), self.on_top(self.opposite(values))
+
+    def opposite(self, values: Mapping[str, float]) -> dict[str, float]:
+        """At -y."""
+        return {**values, "y_m": -values["y_m"]}
+
+    def opposite_point(self, x: float, y: float) -> tuple[float, float]:
+        """At -y."""
+        return x, -y
 
     @property
     def radii(self) -> tuple[float, float]:

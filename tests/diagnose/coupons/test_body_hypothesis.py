@@ -46,7 +46,7 @@ def seen(plain: BodyHypothesis) -> BodyHypothesis:
 
 
 def with_lump(h: BodyHypothesis) -> BodyHypothesis:
-    [lump] = [c for c in all_candidates(h.study.files) if c.effect == "attached_mass"]
+    lump, _ = [c for c in all_candidates(h.study.files) if c.effect == "attached_mass"]
     return replace(h, candidates=(lump,), held=None)
 
 
@@ -103,6 +103,27 @@ def test_shapes_tell_a_lump_from_its_mirror_images(seen: BodyHypothesis) -> None
         assert np.abs(frequencies).max() < 1e-6  # which do not tell them apart
     assert misfit[0.22, 0.13] < 1e-9
     assert min(value for place, value in misfit.items() if place != (0.22, 0.13)) > 20
+
+
+def _shape_sds(h: BodyHypothesis) -> np.ndarray:
+    z = np.zeros(h.constants)
+    return np.array([f.sd for f in h.paired(z).features(z) if f.kind == "shape"])
+
+
+def test_shapes_count_where_valleys_are_wide_but_for_less(seen: BodyHypothesis) -> None:
+    sharp, wide = _shape_sds(seen), _shape_sds(replace(seen, discrepancy=0.03))
+    assert len(wide) == len(sharp)
+    assert np.all(wide >= 0.15)
+    assert sharp.min() < 0.03
+
+
+def test_modes_that_the_mesh_gets_wrong_may_be_mixed_with_their_neighbours(seen: BodyHypothesis) -> None:
+    [stage] = seen.study.stages
+    rough = replace(stage, known=replace(stage.known, own=stage.known.own + 0.02), _projectors={})
+    sharp, blurred = (_shape_sds(h) for h in (seen, replace(seen, study=seen.study.with_stages((rough,)))))
+    assert np.all(blurred >= sharp)
+    # the third and the fourth mode are five percent apart
+    assert np.max(blurred / sharp) > 5.0
 
 
 def test_a_wrong_weight_is_no_other_frequency_than_a_softer_plate(plain: BodyHypothesis) -> None:

@@ -10,8 +10,10 @@ from concealed_wings import FINS, diagnosed_wing
 from statorhom.results.diagnosis import Diagnosis, PlanLocation
 
 pytestmark = pytest.mark.slow
-# springs and a lump are put before two lumps: the answer is `unknown`
-not_yet = pytest.mark.xfail(reason="two lumps are not tried where springs explain more than one lump")
+# panels of the skins are up to 10 % too stiff on the fitting mesh, and modulus and mass make up for each other
+not_yet = pytest.mark.xfail(
+    reason="last seen 43 g for 60 g, and the error more than halved; later parts alone: 54 g"
+)
 FAR_MM = 40.0  # a fiftieth of the span
 
 
@@ -20,7 +22,6 @@ def finned(tmp_path_factory: pytest.TempPathFactory) -> Diagnosis:
     return diagnosed_wing(tmp_path_factory.mktemp("fins"), FINS)
 
 
-@not_yet
 def test_two_fins_left_out_are_named_with_both_places(finned: Diagnosis) -> None:
     assert finned.verdict == "named"
     assert [effect.effect for effect in finned.effects] == ["attached_mass", "attached_mass"]

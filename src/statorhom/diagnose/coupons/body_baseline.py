@@ -36,6 +36,7 @@ BodyRefit = Refit[BodyHypothesis]
 ROUNDS = 4
 PART = 0.1  # of the errors that are left anyway: a basis need not be better
 SAME = 1e-3  # relative: materials so near to the reference need no basis of their own
+FAR = 0.3  # relative: modes of materials so far from it come in another order
 
 
 def body_baseline(
@@ -140,20 +141,20 @@ def at_own_reference(
     study, [stage] = hypothesis.study, hypothesis.study.stages
     values = study.constants.values(found.z[: hypothesis.constants])
     materials = study.materials(stage.setup, values, ())
-    if near and _same(materials, stage.body.reference):
+    if near and _apart(materials, stage.body.reference) < SAME:
         return found
     moved = with_reference(stage, materials, others, mesh_known=mesh_known, near=near, reach=reach)
     return refit(replace(hypothesis, study=study.with_stages((moved,)), held=None), found.z)
 
 
-def _same(materials: Materials, reference: Materials) -> bool:
-    """Whether a basis of its own would add nothing."""
-    return all(
-        np.abs(one.hooke.matrix - reference[region].hooke.matrix).max()
-        < SAME * np.abs(one.hooke.matrix).max()
-        and abs(one.density / reference[region].density - 1.0) < SAME
-        for region, one in materials.items()
-    )
+def _apart(materials: Materials, reference: Materials) -> float:
+    """Largest relative difference of stiffness or density; a small one needs no basis of its own."""
+    differences = [0.0]
+    for region, one in materials.items():
+        stiffness, other = one.hooke.matrix, reference[region].hooke.matrix
+        differences.append(float(np.abs(stiffness - other).max() / np.abs(stiffness).max()))
+        differences.append(abs(one.density / reference[region].density - 1.0))
+    return max(differences)
 
 
 def _missed_rms(found: BodyRefit) -> float:
@@ -168,8 +169,25 @@ def _frequencies(found: BodyRefit) -> FloatArray:
 
 
 def sharpened_body(explanation: Explanation[BodyHypothesis]) -> Explanation[BodyHypothesis]:
-    """An explanation with a basis of its own materials; mesh errors and local shapes hardly depend on them."""
-    try:
-        return replace(explanation, refit=at_own_reference(explanation.refit, mesh_known=True, near=True))
-    except (StatorhomError, KeyError):
-        return explanation
+    """An explanation with a basis of its own materials, anew while they move far from it.
+
+    Mesh errors and local shapes hardly depend on them: they are computed anew where what was left out had drawn the
+    constants far away.
+    """
+    for _ in range(ROUNDS):
+        far = _distance(explanation.refit) > FAR
+        try:
+            found = at_own_reference(explanation.refit, mesh_known=not far, near=not far)
+        except (StatorhomError, KeyError):
+            break
+        explanation = replace(explanation, refit=found)
+        if not far:
+            break
+    return explanation
+
+
+def _distance(found: BodyRefit) -> float:
+    """Of the constants from the materials of the basis."""
+    [stage], study = found.hypothesis.study.stages, found.hypothesis.study
+    values = study.constants.values(found.z[: found.hypothesis.constants])
+    return _apart(study.materials(stage.setup, values, ()), stage.body.reference)

@@ -20,6 +20,7 @@ FloatArray = npt.NDArray[np.float64]
 
 SHAPE_OWN = 0.01  # of amplitudes: places and directions of the sensors, calibration
 SHAPE_PART = 0.05
+WIDER = 5.0  # of a discrepancy of frequencies: what it makes of shapes
 UNEVEN = (
     1.5e-3  # relative stiffness by which no body is as even as its model: neighbours in frequency mix by it
 )
@@ -40,7 +41,7 @@ def body_features(
     ----------
     held : number of the predicted mode of every measured one.
     sensor_kg : of a roving sensor.
-    discrepancy : relative standard deviation that is added to all frequencies.
+    discrepancy : relative standard deviation that is added to all frequencies, and `WIDER` times to shapes.
     """
     found: list[Feature] = []
     for number, (mode, partner) in enumerate(zip(test.modes, held, strict=True)):
@@ -52,13 +53,19 @@ def body_features(
         measured, log_f = float(np.log(mode.frequency_hz)), float(predicted.log_f[partner])
         found.append(Feature("frequency", test.name, key, measured, log_f, sd))
         if test.points is not None:
-            found += _shape(stage, test, number, key, predicted, partner)
+            found += _shape(stage, test, number, key, predicted, partner, WIDER * discrepancy)
             found += _shift(test, number, key, predicted, partner, sensor_kg)
     return found
 
 
 def _shape(
-    stage: BodyStage, test: MeasuredTest, number: int, key: ModeKey, predicted: PredictedBody, partner: int
+    stage: BodyStage,
+    test: MeasuredTest,
+    number: int,
+    key: ModeKey,
+    predicted: PredictedBody,
+    partner: int,
+    wide: float,
 ) -> list[Feature]:
     """Amplitudes in the reference's modes, the predicted shape as large as fits best."""
     assert test.points is not None and predicted.motion is not None
@@ -70,7 +77,11 @@ def _shape(
     model = W @ predicted.motion[:, partner]
     model = model * float(seen @ model) / float(model @ model)
     sd = np.sqrt(
-        noise**2 + SHAPE_OWN**2 + (SHAPE_PART * seen) ** 2 + _mixing(stage, test, number, len(W)) ** 2
+        noise**2
+        + wide**2
+        + SHAPE_OWN**2
+        + (SHAPE_PART * seen) ** 2
+        + _mixing(stage, test, number, len(W), float(predicted.own[partner])) ** 2
     )
     return [
         Feature("shape", test.name, key, float(seen[i]), float(model[i]), float(sd[i]))
@@ -86,11 +97,12 @@ def _nearest(stage: BodyStage, test: MeasuredTest, number: int, count: int) -> l
     return sorted((first + np.argsort(away)[: NEIGHBOURS + 1]).tolist())
 
 
-def _mixing(stage: BodyStage, test: MeasuredTest, number: int, count: int) -> FloatArray:
-    """How much of other modes unevenness mixes into a measured one."""
+def _mixing(stage: BodyStage, test: MeasuredTest, number: int, count: int, own: float) -> FloatArray:
+    """How much of other modes unevenness mixes into a measured one, and what the mesh gets wrong of it alone."""
+    uneven = float(np.hypot(UNEVEN, 2.0 * own))
     values = stage.body.basis.reference_hz[:count] ** 2
-    own = test.modes[number].frequency_hz ** 2
-    return np.asarray(UNEVEN * own / np.maximum(np.abs(values - own), UNEVEN * own))
+    square = test.modes[number].frequency_hz ** 2
+    return np.asarray(uneven * square / np.maximum(np.abs(values - square), uneven * square))
 
 
 def _shift(

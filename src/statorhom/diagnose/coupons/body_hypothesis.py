@@ -50,6 +50,12 @@ class BodyHypothesis(AnyHypothesis):
                 cost += missed(test, predicted, held[test.name])
         return replace(self, held=held, missed=cost)
 
+    def sees(self, feature: Feature) -> bool:
+        """Shapes too where valleys are wide: a body has fewer frequencies than places where something may be."""
+        if self.discrepancy and feature.kind == "shape":
+            return feature.group not in self.left_out
+        return super().sees(feature)
+
     @property
     def tests(self) -> tuple[tuple[BodyStage, str], ...]:
         """Stage and name of every test."""

@@ -68,11 +68,20 @@ class AttachedMass(Effect):
             if stage.tests and places
         )
 
+    def coupon_pairs(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        places = places_on(files, half=True)
+        return tuple(
+            Candidate(self.name, stage.name, (_share_of(stage.mass_kg), *places), both_sides=True)
+            for stage in files.study.stages
+            if stage.tests and places
+        )
+
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
         plan = plan_of(files)
         if plan is not None:
-            lump = Attachment(plan.on_top(values), values["mass_kg"])
-            return Action(attachments=(lump,), stages=frozenset({candidate.stage}))
+            places = plan.both_sides(values) if candidate.both_sides else (plan.on_top(values),)
+            lumps = tuple(Attachment(place, values["mass_kg"]) for place in places)
+            return Action(attachments=lumps, stages=frozenset({candidate.stage}))
         length = files.geometry.core.length_mm / 1e3
         above = values.get("cog_height_mm", USUAL_MM) / 1e3
         foot = min(FOOT * above, 0.5 * length)
