@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose import second_effects as module
-from statorhom.diagnose.explanations import Explanation
+from statorhom.diagnose.explanations import PAIR_GAIN, Explanation
 from statorhom.diagnose.scan import Scan, Signature
-from statorhom.diagnose.second_effects import PAIR_GAIN, SECONDS, second_effects
+from statorhom.diagnose.second_effects import SECONDS, second_effects
 
 
 def signature(effect: str, gain: float, *, repeats: bool = False, place: str = "") -> Signature:

@@ -24,6 +24,7 @@ NARROWING = (0.01, 0.003)
 ADEQUATE = 0.01  # chance of a misfit above which nothing is left to explain
 ROWS = 8  # of which one may be grossly wrong
 DRAWS = 4000
+PAIR_GAIN = 5.0  # log evidence that a second effect must add
 
 
 @dataclass(frozen=True, eq=False)

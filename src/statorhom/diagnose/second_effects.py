@@ -6,13 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from statorhom.diagnose.explanations import Explanation
+from statorhom.diagnose.explanations import PAIR_GAIN, Explanation
 from statorhom.diagnose.refit_starts import WORTH, in_order, is_poor
 from statorhom.diagnose.scan import Scan
 from statorhom.diagnose.single_effects import refits
 
 SECONDS = 5  # effects that are tried beside the first
-PAIR_GAIN = 5.0  # log evidence that a second effect must add
 
 
 def second_effects(first: Explanation, left: Scan, counts: dict[str, int]) -> list[Explanation]:
