@@ -9,6 +9,7 @@ from statorhom.diagnose.derivatives import slopes_of
 from statorhom.diagnose.features import KNEE, LINEAR, LOST, free_features, held_down, own_sd, shift_features
 from statorhom.diagnose.measured import MeasuredSplit, MeasuredTest, PlaneShifts
 from statorhom.diagnose.prediction import PredictedMode
+from statorhom.diagnose.sensor_response import SensorResponse
 from statorhom.identify.model_error import ModelError
 from statorhom.model.stator_mode import StatorMode
 from statorhom.study.modal_table import MeasuredMode
@@ -23,16 +24,15 @@ def test_residuals_are_linear_up_to_the_knee_and_smooth_beyond() -> None:
 
 
 def test_the_right_sensor_mass_leaves_nothing() -> None:
-    z = np.linspace(0.0, 0.1, 9)
-    amplitude = np.column_stack([np.linspace(-1.0, 1.0, 9), np.linspace(0.3, 0.5, 9)])
     places = np.array([0.005, 0.035, 0.065, 0.095])
     square = (20 * places - 1) ** 2 + (0.3 + 2 * places) ** 2
     shift = -0.5 * 0.01 * (square - square.mean())
     shifts = PlaneShifts("1", places, shift, np.full(4, 1e-5), 0.0)
     test = MeasuredTest(0, "free", "free", (), True, (), (shifts,))
     key = (2, 1, 0)
-    right = shift_features(test, {"1": key}, {key: (z, amplitude)}, 0.01)
-    none = shift_features(test, {"1": key}, {key: (z, amplitude)}, 0.0)
+    response = SensorResponse(places, {key: -0.5 * square}, {key: np.zeros(4)})
+    right = shift_features(test, {"1": key}, response, 0.01)
+    none = shift_features(test, {"1": key}, response, 0.0)
     assert max(abs(f.residual) for f in right) < 1e-6
     assert max(abs(f.residual) for f in none) > 3.0
 

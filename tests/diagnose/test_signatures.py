@@ -16,8 +16,9 @@ from statorhom.mesh import uniform
 from statorhom.model.affine import assemble
 from statorhom.model.broken.attachments import footed_lump, point_springs
 from statorhom.model.broken.variations import strip, wave
-from statorhom.model.convergence import mode_keys
+from statorhom.model.convergence import ModeKey, mode_keys
 from statorhom.model.free_modes import solve_free
+from statorhom.model.radial_profile import radial_profile
 from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.effects.interlaminar_shear import sheared
@@ -67,6 +68,14 @@ def test_material_slopes_are_those_of_the_full_model(stage: StageModel) -> None:
     assert checked >= 5
 
 
+def antinode(stage: StageModel, key: ModeKey, z: float) -> float:
+    """Radial motion (1/√kg) of the surface at a height (m)."""
+    mode, solved = stage.reference_keys[key], stage.solve(stage.reference)
+    vector = solved.vectors[mode.problem][:, mode.column]
+    motion = stage.ring.problems[mode.problem].profile @ vector
+    return float(np.interp(z, radial_profile(stage.model.mesh).planes, motion))
+
+
 @pytest.mark.parametrize("angle", [0.3, 1.9])
 def test_a_lump_follows_the_first_order_rules(stage: StageModel, angle: float) -> None:
     """Split: |b| = m φ² and arg b = 2rθ + π; shift of the mean: -¼ of it in ln f per doublet (physics.md §5)."""
@@ -74,8 +83,7 @@ def test_a_lump_follows_the_first_order_rules(stage: StageModel, angle: float) -
     mass = 1e-4
     found = responses(stage, [footed_lump(mesh, angle, 0.5 * mesh.length, mass, foot=1e-3, height=0.0)])
     for key in ((2, 0, 0), (3, 0, 0)):
-        planes, amplitude = stage.amplitudes[key]
-        size = mass * float(np.interp(0.5 * mesh.length, planes, amplitude[:, 0])) ** 2
+        size = mass * antinode(stage, key, 0.5 * mesh.length) ** 2
         b = found[key].split
         turned = b * np.exp(-1j * (2 * key[0] * angle + np.pi))
         # tangential motion at the node of the radial one carries mass too and lessens the split
@@ -112,8 +120,7 @@ def test_ground_springs_fall_with_the_frequency_squared(stage: StageModel) -> No
     found = responses(stage, spring)
     shares = []
     for key in ((2, 0, 0), (3, 0, 0)):
-        planes, amplitude = stage.amplitudes[key]
-        modal = float(np.interp(0.04, planes, amplitude[:, 0])) ** 2
+        modal = antinode(stage, key, 0.04) ** 2
         omega = 2 * np.pi * stage.reference_keys[key].frequency_hz
         shares.append(found[key].shift / (1e5 * modal / (4 * omega**2)))
     assert shares == pytest.approx([1.0, 1.0], rel=0.1)

@@ -13,6 +13,7 @@ import numpy as np
 
 from statorhom.diagnose.measured import MeasuredSplit, MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
+from statorhom.diagnose.sensor_response import SensorResponse
 from statorhom.identify.model_error import DEFAULT_RELATIVE_SD, ModelError
 from statorhom.identify.stage_problem import FOUND, GATE, HALF_FOUND, LABELLED_GATE, PAIRING_SD
 from statorhom.model.convergence import ModeKey
@@ -271,46 +272,32 @@ def _split_of(test: MeasuredTest, rows: Sequence[MeasuredMode]) -> MeasuredSplit
 
 
 def shift_features(
-    test: MeasuredTest,
-    keys: Mapping[str, ModeKey],
-    amplitudes: Mapping[ModeKey, tuple[np.ndarray, np.ndarray]],
-    sensor_kg: float,
+    test: MeasuredTest, keys: Mapping[str, ModeKey], response: SensorResponse, sensor_kg: float
 ) -> list[Feature]:
-    """Pole shifts from plane to plane by a sensor's mass, δf/f = -½ m |φ|² over the directions of motion.
+    """Pole shifts from plane to plane by a sensor's mass.
 
     Parameters
     ----------
     keys : label of a measured mode → its name.
-    amplitudes : heights (p,) (m) and amplitudes (p, directions) at an antinode (1/√kg) of the named modes.
+    response : of the named modes.
     """
     found = []
     for shifts in test.shifts:
         key = keys.get(shifts.label)
-        if key is None or key not in amplitudes:
+        if key is None or key not in response.slope:
             continue
-        square = _squared(shifts.z_m, *amplitudes[key])
-        moved = -0.5 * sensor_kg * square
+        moved = response.shift(shifts.z_m, key, sensor_kg)
         moved = moved - moved.mean()
         for measured, p, sd in zip(shifts.shift, moved, shifts.sd, strict=True):
             found.append(Feature("shift", test.name, key, float(measured), float(p), _shift_sd(sd, measured)))
     return found
 
 
-def loading(
-    test: MeasuredTest,
-    key: ModeKey,
-    amplitudes: Mapping[ModeKey, tuple[np.ndarray, np.ndarray]],
-    sensor_kg: float,
-) -> float:
+def loading(test: MeasuredTest, key: ModeKey, response: SensorResponse, sensor_kg: float) -> float:
     """Mean fall of ln f by a sensor's mass over the test's measuring planes."""
-    if key not in amplitudes or not test.shifts:
+    if key not in response.slope:
         return 0.0
-    return 0.5 * sensor_kg * float(np.mean(_squared(test.shifts[0].z_m, *amplitudes[key])))
-
-
-def _squared(z: np.ndarray, heights: np.ndarray, amplitudes: np.ndarray) -> np.ndarray:
-    """Squared amplitude (places,) of a point that moves in several directions."""
-    return np.asarray(sum(np.interp(z, heights, one) ** 2 for one in amplitudes.T))
+    return -float(np.mean(response.shift(test.shifts[0].z_m, key, sensor_kg)))
 
 
 def _shift_sd(sd: float, measured: float) -> float:

@@ -40,6 +40,7 @@ from statorhom.diagnose.levels import (
 from statorhom.diagnose.masses import KNOWN, stage_densities
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode, acted_materials, predicted
+from statorhom.diagnose.sensor_response import SensorResponse, sensor_response
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.diagnose.supported import (
@@ -238,10 +239,10 @@ class Hypothesis(AnyHypothesis):
             if name.startswith("scatter") and name.endswith("re")
         }
         sensor = sum(a.sensor_kg for a in actions if a.touches(stage.name, test.name))
-        if sensor:
+        response = _sensor_response(stage, test)
+        if sensor and response is not None:
             modes = {
-                k: replace(m, log_f=m.log_f - loading(test, k, stage.amplitudes, sensor))
-                for k, m in modes.items()
+                k: replace(m, log_f=m.log_f - loading(test, k, response, sensor)) for k, m in modes.items()
             }
         found = free_features(test, measured, keys, modes, scatter, stage.error, self.discrepancy)
         base = level_bases(stage).get(test.name)
@@ -257,9 +258,9 @@ class Hypothesis(AnyHypothesis):
             )
         elif is_damped(self.study, test):
             found += free_losses(test, measured, keys, losses)
-        if test.shifts:
+        if response is not None:
             labels = {m.label: k for m, k in zip(measured, keys, strict=True) if k is not None}
-            found += shift_features(test, labels, stage.amplitudes, sensor)
+            found += shift_features(test, labels, response, sensor)
         return with_rows(found, measured, keys)
 
     def densities(self, values: Mapping[str, float], actions: Sequence[Action]) -> list[Feature]:
@@ -286,3 +287,10 @@ class Hypothesis(AnyHypothesis):
             if region in density:
                 found.append(Feature("density", "", None, density[region], mean, sd))
         return found
+
+
+def _sensor_response(stage: StageModel, test: MeasuredTest) -> SensorResponse | None:
+    """Of a test that tells how poles move from plane to plane."""
+    if not test.shifts:
+        return None
+    return sensor_response(stage, np.unique(np.concatenate([s.z_m for s in test.shifts])).tolist())

@@ -27,7 +27,6 @@ from statorhom.model.convergence import ModeKey, converge, mode_keys
 from statorhom.model.free_modes import FreeModes, problem_at
 from statorhom.model.harmonic import Harmonic
 from statorhom.model.pitch_parts import pitch_parts
-from statorhom.model.radial_profile import radial_profile
 from statorhom.model.stator_mode import StatorMode
 from statorhom.physics.action import Training
 
@@ -35,7 +34,7 @@ BAND = 1.12  # predictions reach this much higher than the highest measured mode
 BROKEN_MARGIN = 1.25
 CUT = 1.5  # of a narrower band: how far its basis reaches beyond it
 MOST = 6  # modes of a harmonic problem on it
-OF_REFERENCE = ("broken", "mirrors", "reference_keys", "amplitudes", "scattered")
+OF_REFERENCE = ("broken", "mirrors", "reference_keys", "scattered")
 FINER = 1.5  # second mesh of the extrapolation
 
 
@@ -66,6 +65,7 @@ class StageModel:
     _trained: dict[tuple[str, ...], TrainedBasis] = field(default_factory=dict, repr=False)
     _narrow: dict[float, TrainedBasis] = field(default_factory=dict, repr=False)
     held_shapes: dict[str, HeldShapes] = field(default_factory=dict, repr=False)
+    sensor_responses: dict[tuple[float, ...], Any] = field(default_factory=dict, repr=False)
 
     @property
     def name(self) -> str:
@@ -158,22 +158,6 @@ class StageModel:
         return known
 
     @cached_property
-    def amplitudes(self) -> Mapping[ModeKey, tuple[np.ndarray, np.ndarray]]:
-        """Heights (p,) (m) and antinode amplitudes (p, 2) (1/√kg) of the named modes at the reference.
-
-        Radial, then axial: a mass moves with the surface in both. Where both are largest nothing moves tangentially.
-        """
-        profile, solved = radial_profile(self.model.mesh), self.solve(self.reference)
-        found = {}
-        for key, mode in self.reference_keys.items():
-            problem = self.ring.problems[mode.problem]
-            vector = solved.vectors[mode.problem][:, [mode.column]]
-            shape = problem.space.expand(problem.basis @ vector)
-            axial = profile.orders(problem.space, shape, component=2)
-            found[key] = (profile.planes, np.hstack([problem.profile @ vector, axial]))
-        return found
-
-    @cached_property
     def scattered(self) -> Mapping[ModeKey, float]:
         """Relative splits of the doublets by a unit of scatter, at the reference."""
         return scatter_weights(self.model, self.reference, self.solve(self.reference), self.reference_keys)
@@ -246,4 +230,5 @@ def with_reference(stage: StageModel, materials: Materials) -> StageModel:
         _narrow={},
         held_shapes={},
         kept_responses={},
+        sensor_responses={},
     )
