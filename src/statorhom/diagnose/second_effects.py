@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from statorhom.diagnose.explanations import PAIR_GAIN, Explanation
-from statorhom.diagnose.refit_starts import WORTH, in_order, is_poor
+from statorhom.diagnose.refit_starts import WORTH, in_order
 from statorhom.diagnose.scan import Scan
 from statorhom.diagnose.single_effects import refits
 
@@ -27,8 +25,6 @@ def second_effects(first: Explanation, left: Scan, counts: dict[str, int]) -> li
     left = replace(left, signatures=tuple(others))
     favourites = left.worth_refitting(SECONDS, WORTH)[:SECONDS]
     base = first.refit
-    # far from an optimum of two effects, an optimum beside the first one's says little of how far they get
-    limit = np.inf if is_poor(base) else base.objective - 2 * PAIR_GAIN
-    found = refits(base, in_order(base, left, favourites), counts, limit)
+    found = refits(base, in_order(base, left, favourites), counts, base.objective - 2 * PAIR_GAIN)
     enough = [e for e in found if e.log_evidence > first.log_evidence + PAIR_GAIN]
     return sorted(enough, key=lambda e: -e.log_evidence)

@@ -59,8 +59,9 @@ def _solved(stage: StageModel, heights: tuple[float, ...]) -> SensorResponse:
     whole = sum(volume * stage.reference[region].density for region, volume in stage.model.volumes.items())
     masses = [part * whole for part in SAMPLES]
     mesh = stage.model.mesh
-    # the stator is the same all around
-    found = [[_lower(responses(stage, [lump(mesh, 0.0, z, m)])) for z in heights] for m in masses]
+    # a quarter of a pitch from a tooth, where what differs from tooth to slot has its mean
+    angle = np.pi / (2 * mesh.slots)
+    found = [[_lower(responses(stage, [lump(mesh, angle, z, m)])) for z in heights] for m in masses]
     known = set.intersection(*(set(one) for row in found for one in row))
     slope, curvature = {}, {}
     for key in known:

@@ -69,14 +69,16 @@ def refits(
     base : what the trials add to.
     trials : in the order in which they are tried.
     counts : as for `single_effects`.
-    limit : objective above which a refit matters to nobody.
+    limit : objective above which a refit matters to nobody; of a poor model cheap ones are followed whatever they reach
+        at once, for other valleys may be better.
     """
     explanations: list[Explanation] = []
     for gain, starts in trials:
-        worth = min(limit, _worth(explanations))
+        dear = price((gain, starts)) > CHEAP
+        worth = min(_worth(explanations), limit if dear or not is_poor(base) else np.inf)
         if gain < WORTH and np.isfinite(worth):
             continue  # it promises nothing, and nothing is left to explain
-        if price((gain, starts)) > CHEAP:
+        if dear:
             worth = min(worth, _leading(base, explanations))
         best = _best_refit(starts, worth, far=is_poor(base))
         if best is not None:

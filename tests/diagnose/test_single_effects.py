@@ -1,0 +1,41 @@
+"""Which refits are given up early: all near an optimum, the dear ones of a poor model."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from statorhom.diagnose import single_effects as module
+from statorhom.diagnose.refit_starts import CHEAP, MIDDLING
+from statorhom.diagnose.single_effects import refits
+
+LIMIT = 90.0
+
+
+def worths(monkeypatch: pytest.MonkeyPatch, misfit: float, *prices: int) -> list[float]:
+    """Objectives above which the trials of these prices matter to nobody."""
+    seen: list[float] = []
+
+    def best_refit(_: Any, worth: float, far: bool) -> None:
+        assert far == (misfit > 100.0)
+        seen.append(worth)
+
+    monkeypatch.setattr(module, "price", lambda trial: trial[1])
+    monkeypatch.setattr(module, "_best_refit", best_refit)
+    base: Any = SimpleNamespace(misfit=misfit, objective=misfit, jacobian=np.zeros((30, 1)))
+    trials: Any = [(50.0, price) for price in prices]
+    assert refits(base, trials, {}, LIMIT) == []
+    return seen
+
+
+def test_near_an_optimum_the_limit_is_everybody_s(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert worths(monkeypatch, 60.0, CHEAP, MIDDLING) == [LIMIT, LIMIT]
+
+
+def test_of_a_poor_model_cheap_effects_are_followed_through_other_valleys(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert worths(monkeypatch, 900.0, CHEAP, MIDDLING) == [np.inf, LIMIT]
