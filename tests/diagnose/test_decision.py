@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
-from statorhom.diagnose.decision import Evidence, decide
+from statorhom.diagnose.decision import Evidence, decide, within_bounds
+from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.held_out import HeldOut
+from statorhom.physics.candidate import Candidate
+from statorhom.physics.parameter import EffectParameter
 
 GROUPS = tuple(("test", (r, 0, 0)) for r in range(2, 8))
 FALLS = HeldOut(GROUPS, (2.0, 3.0, 1.5, 2.5, 2.0, 3.0), (0.2, 0.3, 0.1, 0.2, 0.3, 0.2), (0.1,) * 6)
@@ -98,3 +103,15 @@ def test_an_adequate_declared_model_wants_more_evidence() -> None:
     adequate = replace(GOOD, nothing_adequacy=0.4, over_nothing=12.0)
     assert decide(adequate) == "none"
     assert decide(replace(adequate, over_nothing=25.0)) == "named"
+
+
+@pytest.mark.parametrize(
+    ("value", "within"), [(3.111, False), (3.14, False), (3.0, True), (3.2, True), (9.41, False)]
+)
+def test_a_dimension_within_its_tolerance_was_not_mistyped(value: float, within: bool) -> None:
+    typed = 3.14
+    width = EffectParameter("value", 2.5, 4.0, typed / 3, 3 * typed, "log", (3.2,), typed, negligible=0.05)
+    candidate = Candidate("wrong_input", "stack", (width,))
+    hypothesis: Any = SimpleNamespace(effect_values=lambda _: [{"value": value}])
+    refit: Any = SimpleNamespace(hypothesis=hypothesis, z=None)
+    assert within_bounds(Explanation((candidate,), refit, 0.0)) is within

@@ -91,10 +91,12 @@ def decide(evidence: Evidence) -> Verdict:
 
 
 def within_bounds(explanation: Explanation) -> bool:
-    """Whether no magnitude lies on a bound of its physical range."""
+    """Whether no magnitude lies on a bound of its physical range, nor within the tolerance of what it corrects."""
     values = explanation.refit.hypothesis.effect_values(explanation.refit.z)
     for candidate, found in zip(explanation.candidates, values, strict=True):
         for p in candidate.magnitudes:
+            if p.absent is not None and abs(found[p.name] - p.absent) < p.negligible:
+                return False
             low, value, high = (
                 (np.log(v) if p.scale == "log" else v) for v in (p.lower, found[p.name], p.upper)
             )

@@ -24,6 +24,7 @@ class EffectParameter:
     starts : values from which a refit sets out; the first one is where signatures are taken.
     absent : value without the effect, None where only a limit of the scale is.
     usual : of a detail that is carried as uncertainty and is no magnitude: what a study that leaves it open means.
+    negligible : distance from `absent` within which nothing is missing: a tolerance of what was typed.
     """
 
     name: str
@@ -35,6 +36,7 @@ class EffectParameter:
     starts: tuple[float, ...] = ()
     absent: float | None = 0.0
     usual: float | None = None
+    negligible: float = 0.0
 
     @property
     def located(self) -> bool:

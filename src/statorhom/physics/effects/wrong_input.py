@@ -19,6 +19,8 @@ DIMENSIONS = {
     "frame": ("outer_diameter_mm", "length_mm"),
 }
 FIRST_STEP = {"winding": ("wound", "impregnated"), "frame": ("framed",)}
+# of dimensions (ISO 2768-1, fine, up to 6 mm; less of thin sheets): what lies within was made, not mistyped
+TOLERANCE_MM, TOLERANCE = 0.05, 0.02
 SPREAD = 1.3  # a wrong number is off by up to this factor nine times out of ten
 
 
@@ -83,7 +85,6 @@ def _dimensions(files: StudyFiles) -> list[Candidate]:
 
 
 def _candidate(stage: str, key: str, typed: float, choice: tuple[tuple[str, str | int], ...]) -> Candidate:
-    del key
     value = EffectParameter(
         "value",
         typed / SPREAD,
@@ -93,6 +94,7 @@ def _candidate(stage: str, key: str, typed: float, choice: tuple[tuple[str, str 
         "log",
         (0.98 * typed, 1.02 * typed),
         typed,
+        negligible=min(TOLERANCE_MM, TOLERANCE * typed) if key.endswith("_mm") else 0.0,
     )
     return Candidate("wrong_input", stage, (value,), choice=choice)
 
