@@ -30,12 +30,9 @@ class RadialProfile:
     points: SurfacePoints
     angles: np.ndarray
 
-    def orders(self, harmonic: Harmonic, shapes: np.ndarray, component: int = 0) -> np.ndarray:
-        """Amplitude of order h of shapes (3 n, k) in every plane, (p, k), real.
-
-        `component` is 0 for the radial motion and 2 for the axial one, which the mirror symmetry treats alike.
-        """
-        motion = self.points.evaluate(harmonic, shapes)[:, component]
+    def orders(self, harmonic: Harmonic, shapes: np.ndarray) -> np.ndarray:
+        """Radial amplitude of order h of shapes (3 n, k) in every plane, (p, k), real."""
+        motion = self.points.evaluate(harmonic, shapes)[:, 0]
         # the points of the neighbouring pitch carry its phase; the order's own phase takes care of both
         turned = motion.reshape(len(self.planes), len(self.angles), -1)
         wave = np.exp(-1j * harmonic.order * self.angles)

@@ -48,11 +48,14 @@ def fit_orders(values: ComplexArray, columns: FloatArray, rich: BoolArray) -> Or
     rich : ndarray of bool, shape (planes,)
         Planes with points enough to choose the orders by; the others follow them as far as they can.
     """
-    orders = _strongest_orders(values[rich], columns)
+    every, present = list(range(len(columns))), np.isfinite(values)
+    # complete planes tell all orders at once; to find the strongest ones first takes far longer
+    complete = present.all() and _resolves(columns, every, present[:1])
+    orders = every if complete else _strongest_orders(values[rich], columns)
     fit = OrderFit(
         np.full((len(values), len(columns), 2), np.nan, dtype=complex), np.full(len(values), np.nan)
     )
-    for mask, planes in _by_points(np.isfinite(values)):
+    for mask, planes in _by_points(present):
         known = next((n for n in range(len(orders), 0, -1) if _resolves(columns, orders[:n], mask[None])), 0)
         if known:
             part = _fit(values[planes], columns, orders[:known])
