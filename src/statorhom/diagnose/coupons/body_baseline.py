@@ -137,14 +137,17 @@ def at_own_reference(
     ----------
     others, near, reach : see `with_reference`.
     """
-    hypothesis = found.hypothesis
-    study, [stage] = hypothesis.study, hypothesis.study.stages
-    values = study.constants.values(found.z[: hypothesis.constants])
-    materials = study.materials(stage.setup, values, ())
+    study, [stage], materials = found.hypothesis.study, found.hypothesis.study.stages, _own_materials(found)
     if near and _apart(materials, stage.body.reference) < SAME:
         return found
     moved = with_reference(stage, materials, others, mesh_known=mesh_known, near=near, reach=reach)
-    return refit(replace(hypothesis, study=study.with_stages((moved,)), held=None), found.z)
+    return refit(replace(found.hypothesis, study=study.with_stages((moved,)), held=None), found.z)
+
+
+def _own_materials(found: BodyRefit) -> Materials:
+    """What its constants make."""
+    study, [stage] = found.hypothesis.study, found.hypothesis.study.stages
+    return study.materials(stage.setup, study.constants.values(found.z[: found.hypothesis.constants]), ())
 
 
 def _apart(materials: Materials, reference: Materials) -> float:
@@ -188,6 +191,5 @@ def sharpened_body(explanation: Explanation[BodyHypothesis]) -> Explanation[Body
 
 def _distance(found: BodyRefit) -> float:
     """Of the constants from the materials of the basis."""
-    [stage], study = found.hypothesis.study.stages, found.hypothesis.study
-    values = study.constants.values(found.z[: found.hypothesis.constants])
-    return _apart(study.materials(stage.setup, values, ()), stage.body.reference)
+    [stage] = found.hypothesis.study.stages
+    return _apart(_own_materials(found), stage.body.reference)
