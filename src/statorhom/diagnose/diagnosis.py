@@ -130,7 +130,7 @@ def _find(
     discrete = [c for c in candidates if not c.parameters]
     if signatures.p_value < MAX_T_P:
         found = single_effects(base.free, signatures, discrete, counts)
-        if found and found[0].adequacy < ADEQUATE:
+        if found and found[0].adequacy_but_one < ADEQUATE:
             found = approach.refined(found, base.valleys, counts)
         # one gross error asks for no second effect
         if found and found[0].adequacy_but_one < ADEQUATE:

@@ -12,6 +12,7 @@ from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.valleys import trials_around, wide_optima
 from statorhom.errors import IdentificationError
+from statorhom.identify.stage_setup import StageSetup
 
 REFITTED = 6  # points that are followed in wide valleys
 SUPPORTS = 8  # that are tried, each with many materials
@@ -41,6 +42,39 @@ def searched_starts(hypothesis: Hypothesis, z: np.ndarray, seed: int = 0) -> lis
         return wide_optima(quick, [np.clip(point, low, high) for point in points], REFITTED)
     except IdentificationError:
         return []
+
+
+def of_later_steps(found: Refit[Hypothesis], seed: int = 0) -> list[Refit[Hypothesis]]:
+    """The effect as found and other optima of the constants of later steps, in wide valleys, the best first.
+
+    Those were sought without the effect: under a wrong mass, or beside another's stiffness, they lie in another valley.
+
+    Parameters
+    ----------
+    found : with the effect as its last one.
+    seed : of the points.
+    """
+    hypothesis, z = replace(found.hypothesis, held=None, trained=False), found.z
+    low, high = hypothesis.limits()
+    optima: list[Refit[Hypothesis]] = []
+    for setup in _after(hypothesis):
+        places = new_constants(hypothesis.study.constants, setup)
+        if not places:
+            continue
+        try:
+            points = [np.clip(point, low, high) for point in trials_around(z, places, seed)]
+            optima = wide_optima(hypothesis, points, REFITTED)
+        except IdentificationError:
+            return []
+        z = optima[0].z
+    return optima
+
+
+def _after(hypothesis: Hypothesis) -> list[StageSetup]:
+    """The tested steps after the effect's own."""
+    order = [stage.name for stage in hypothesis.study.files.study.stages]
+    own = order.index(hypothesis.candidates[-1].stage)
+    return [s.setup for s in hypothesis.study.stages if order.index(s.setup.keys.name) > own]
 
 
 def _with_few_supports(points: Sequence[np.ndarray], constants: int) -> list[np.ndarray]:

@@ -24,6 +24,7 @@ from statorhom.diagnose.mislabelled import worth_trying
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.refit_starts import (
     CHEAP,
+    STARTS,
     WORTH,
     Start,
     Trial,
@@ -33,6 +34,7 @@ from statorhom.diagnose.refit_starts import (
     start_of,
 )
 from statorhom.diagnose.scan import Scan
+from statorhom.diagnose.searched_starts import of_later_steps
 from statorhom.physics.candidate import Candidate
 
 MOST = 12  # candidates that are refitted
@@ -106,7 +108,7 @@ def new_names(
 
 def _worth(explanations: Sequence[Explanation]) -> float:
     """Objective above which a further explanation is no rival; infinite while nothing explains the misfit."""
-    adequate = [e.refit.objective for e in explanations if e.adequacy > ADEQUATE]
+    adequate = [e.refit.objective for e in explanations if e.adequacy_but_one > ADEQUATE]
     return min(adequate, default=np.inf) + NEAR
 
 
@@ -127,7 +129,7 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool) -> Refit | 
     """
     found: list[Refit] = []
     for start in starts:
-        if found and explained(found[-1], {}).adequacy > ADEQUATE:
+        if found and explained(found[-1], {}).adequacy_but_one > ADEQUATE:
             break
         if np.isfinite(worth):
             found += _kept(_rival(start, worth))
@@ -136,7 +138,23 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool) -> Refit | 
             found += _kept(_through(start) if wide else refitted(start.hypothesis, start.z))
             if found and not is_poor(found[-1]):
                 break
-    return min(found, key=lambda r: r.objective, default=None)
+    best = min(found, key=_objective, default=None)
+    if best is not None and far and np.isinf(worth) and price((0.0, list(starts))) == CHEAP:
+        best = min([best, *_beside_later_steps(best)], key=_objective)
+    return best
+
+
+def _beside_later_steps(best: Refit) -> list[Refit]:
+    """The same effect beside other constants of later steps, where much is left to explain."""
+    if explained(best, {}).adequacy_but_one > ADEQUATE:
+        return []
+    roughs = of_later_steps(best)[:STARTS]
+    found = (through_wide_valleys(best.hypothesis, rough.z, rough) for rough in roughs)
+    return [r for r in found if r is not None]
+
+
+def _objective(found: Refit) -> float:
+    return found.objective
 
 
 def _rival(start: Start, worth: float) -> Refit | None:

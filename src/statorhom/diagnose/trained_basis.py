@@ -54,7 +54,7 @@ class TrainedBasis:
                 for c in found.columns.values()
                 for i in ([c.cosine] if c.sine is None else [c.cosine, c.sine])
             ]
-            used = np.sum(modes.coordinates[rows] ** 2, axis=0) > OWN
+            used = np.sum(modes.participation[rows] ** 2, axis=0) > OWN
             values, x = modes.eigenvalues[used], modes.coordinates[:, used]
             found = trained_basis(enriched(found.basis, modes.coupled, values, x, LEAST), named)
         return found

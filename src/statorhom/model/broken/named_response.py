@@ -52,7 +52,7 @@ def columns_of(basis: SymmetricBasis, space: Harmonic, frequency_hz: float) -> C
 def named_response(modes: BrokenModes, place: Columns) -> Response | None:
     """Response of a named mode; None where it can no longer be told among the broken ones."""
     numbers = [place.cosine] if place.sine is None else [place.cosine, place.sine]
-    parts = modes.coordinates[numbers]
+    parts = modes.participation[numbers]
     weight = np.sum(parts**2, axis=0)
     chosen = np.sort(np.argsort(-weight)[: len(numbers)])
     if len(chosen) < len(numbers) or weight[chosen].min() < LEAST:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy.stats import chi2
@@ -66,6 +67,16 @@ class BrokenModes:
     def frequencies_hz(self) -> np.ndarray:
         """(modes,) natural frequencies."""
         return frequency_hz(self.eigenvalues)
+
+    @cached_property
+    def participation(self) -> np.ndarray:
+        """(w, modes) of the symmetric stator's modes in these: products by mass, in which static responses have a part.
+
+        Coordinates alone may exceed what a mode has of another one, where a static response takes it back.
+        """
+        size, statics = len(self.basis.values), self.coupled.statics
+        modal = self.coordinates[:size]
+        return modal if len(statics) == 0 else modal + statics.products @ self.coordinates[size:]
 
     def motion(self, points: SurfacePoints) -> np.ndarray:
         """Motion (u_r, u_θ, u_z) of all modes at points of the outer surface, (p, 3, modes) in 1/√kg.
