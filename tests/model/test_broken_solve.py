@@ -262,3 +262,31 @@ def test_results_are_read_only():
         found.errors[0] = 0.0
     with pytest.raises(AttributeError):
         found.basis = None
+
+
+def cartesian(w, modes, number):
+    """Motion of a mode at the whole stator's nodes, as one column."""
+    x, y = w.mesh.nodes[:, 0], w.mesh.nodes[:, 1]
+    radius = np.hypot(x, y)
+    u_r, u_t, u_z = modes.shapes.full_shape(w.half, number).T
+    return np.column_stack([u_r * x - u_t * y, u_r * y + u_t * x, u_z * radius]).ravel() / np.repeat(
+        radius, 3
+    )
+
+
+def test_a_mode_s_part_of_another_is_their_product_by_mass():
+    """Static responses to a heavy lump's forces hold much of the low modes: coordinates alone tell another story."""
+    w, basis = stator("stack"), basis_of("stack")
+    free = solve_broken(basis, [], tolerance=None)
+    heavy = footed_lump(w.half, ANGLE, HEIGHT, 1.0, foot=0.016, height=0.01)
+    broken = solve_broken(basis, [heavy], tolerance=None)
+    size = len(basis.values)
+    chosen = range(min(6, len(free)))
+    found = free.participation[:, chosen].T @ broken.participation
+    expected = [
+        [cartesian(w, free, i) @ (w.M @ cartesian(w, broken, j)) for j in range(len(broken))] for i in chosen
+    ]
+    np.testing.assert_allclose(found, expected, atol=2e-3)
+    assert np.abs(found).max() < 1.0 + 1e-6
+    coordinates = free.coordinates[:size, chosen].T @ broken.coordinates[:size]
+    assert np.abs(coordinates - found).max() > 0.05
