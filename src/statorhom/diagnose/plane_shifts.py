@@ -10,26 +10,30 @@ import numpy as np
 from statorhom.diagnose.measured import PlaneShifts
 from statorhom.extraction.local_poles import local_poles
 from statorhom.extraction.measured_modes import MeasuredModes, NamedMode
+from statorhom.modes.doublets import DoubletPair
 
 CLOSE = 0.012  # of the frequency: poles nearer than this may be images of one mode
 APART = 1.0  # half-power bandwidths by which a mode must stand off all others for its own pole to be told
+NARROW = 0.1  # half-power bandwidths between a doublet's modes, below which any point sees one mode, its antinode there
 ALIKE = 0.5  # rad: antinodes of images lie together, those of a doublet's two modes apart
 LEAST_POINTS = 4  # per plane
 LEAST_SD = 5e-6
-CONTRARY = 8.0  # standard deviations by which the points of a plane may differ
+# the points of a plane may differ by so many standard deviations, or by that part of what the planes differ
+CONTRARY, CONTRARY_PART = 8.0, 0.1
 LARGEST = 0.03  # shifts beyond are of another mode
 
 
 def plane_shifts(measured: MeasuredModes) -> tuple[PlaneShifts, ...]:
-    """Shifts of every named mode that is no member of a doublet, one for all of its images."""
+    """Shifts of every named mode that is no member of a split doublet, one for all of its images."""
     if len(measured.frf_sets) != 1:
         return ()
-    paired = {i for d in measured.doublets for i in (d.lower, d.upper)}
+    split = [d for d in distinct_doublets(measured) if not _is_narrow(measured.modes, d)]
+    paired = {i for d in split for i in (d.lower, d.upper)}
     kept = strongest(measured.modes, paired)
     alone = [
         i
         for i in kept
-        if i not in paired and measured.modes[i].order is not None and stands_off(measured.modes, i)
+        if i not in paired and measured.modes[i].order is not None and stands_off(measured.modes, i, kept)
     ]
     if not alone:
         return ()
@@ -53,16 +57,29 @@ def plane_shifts(measured: MeasuredModes) -> tuple[PlaneShifts, ...]:
     return tuple(found)
 
 
+def _is_narrow(modes: Sequence[NamedMode], doublet: DoubletPair) -> bool:
+    lower, upper = (modes[i].mode for i in (doublet.lower, doublet.upper))
+    return upper.frequency_hz - lower.frequency_hz < NARROW * lower.bandwidth_hz
+
+
+def distinct_doublets(measured: MeasuredModes) -> tuple[DoubletPair, ...]:
+    """Doublets without weaker images: a sensor that moves a doublet at some planes leaves it twice."""
+    modes, size = measured.modes, _sizes(measured.modes)
+
+    def is_image(one: DoubletPair, other: DoubletPair) -> bool:
+        mine, its = modes[one.lower], modes[other.lower]
+        return (
+            (mine.order, mine.axial) == (its.order, its.axial)
+            and size[one.lower] + size[one.upper] < size[other.lower] + size[other.upper]
+            and abs(np.log(its.mode.frequency_hz / mine.mode.frequency_hz)) < CLOSE
+        )
+
+    return tuple(d for d in measured.doublets if not any(is_image(d, e) for e in measured.doublets))
+
+
 def strongest(modes: Sequence[NamedMode], paired: set[int]) -> list[int]:
     """Numbers of the modes without the weaker images of each."""
-    size = [
-        float(
-            np.linalg.norm(m.mode.participation)
-            * np.linalg.norm(np.nan_to_num(m.mode.shape))
-            / m.mode.loss_factor
-        )
-        for m in modes
-    ]
+    size = _sizes(modes)
     kept = []
     for i, one in enumerate(modes):
         close = [
@@ -78,15 +95,40 @@ def strongest(modes: Sequence[NamedMode], paired: set[int]) -> list[int]:
     return kept
 
 
-def stands_off(modes: Sequence[NamedMode], i: int) -> bool:
-    """Whether no mode of another name shares the resonance: a single FRF cannot tell which of the two moved."""
+def doubtful_axial(modes: Sequence[NamedMode], kept: Sequence[int]) -> set[int]:
+    """Numbers of those whose images have other node planes: each image holds the planes at which the pole is its own."""
+
+    def is_image(one: NamedMode, other: NamedMode) -> bool:
+        near = abs(np.log(other.mode.frequency_hz / one.mode.frequency_hz)) < CLOSE
+        return near and other.order == one.order and other.axial != one.axial
+
+    rest = [mode for j, mode in enumerate(modes) if j not in kept]
+    return {i for i in kept if modes[i].order is not None and any(is_image(modes[i], m) for m in rest)}
+
+
+def _sizes(modes: Sequence[NamedMode]) -> list[float]:
+    return [
+        float(
+            np.linalg.norm(m.mode.participation)
+            * np.linalg.norm(np.nan_to_num(m.mode.shape))
+            / m.mode.loss_factor
+        )
+        for m in modes
+    ]
+
+
+def stands_off(modes: Sequence[NamedMode], i: int, kept: Sequence[int]) -> bool:
+    """Whether no mode of another name shares the resonance: a single FRF cannot tell which of the two moved.
+
+    Images are left out, for they are the mode itself.
+    """
     own = modes[i]
     width = APART * own.mode.loss_factor * own.mode.frequency_hz
     return not any(
         other.order is not None
         and (other.order, other.axial) != (own.order, own.axial)
         and abs(other.mode.frequency_hz - own.mode.frequency_hz) < width
-        for other in modes
+        for other in (modes[j] for j in kept)
     )
 
 
@@ -98,7 +140,7 @@ def _by_plane(
     None where the points of a plane contradict each other: then other modes move what looks like the pole.
     """
     usable = np.isfinite(sd) & np.isfinite(heights) & (np.abs(shift) < LARGEST) & (sd < 0.3 * loss)
-    planes, means, deviations, contrary = [], [], [], []
+    planes, means, deviations, scatters, contrary = [], [], [], [], []
     for z in np.unique(np.round(heights[np.isfinite(heights)], 6)):
         here = usable & (np.abs(heights - z) < 1e-6)
         if np.count_nonzero(here) < LEAST_POINTS:
@@ -110,8 +152,11 @@ def _by_plane(
         planes.append(float(z))
         means.append(mean)
         deviations.append(max(spread, LEAST_SD))
-        contrary.append(float(np.std(shift[here]) / np.hypot(np.median(sd[here]), LEAST_SD)))
-    if len(planes) < 2 or np.median(contrary) > CONTRARY:
+        scatters.append(float(np.std(shift[here])))
+        contrary.append(float(scatters[-1] / np.hypot(np.median(sd[here]), LEAST_SD)))
+    if len(planes) < 2:
+        return None
+    if np.median(contrary) > CONTRARY and np.median(scatters) > CONTRARY_PART * np.ptp(means):
         return None
     s, d = np.array(means), np.array(deviations)
     return PlaneShifts(label, np.array(planes), s - float(s.mean()), d, float(s.mean()))

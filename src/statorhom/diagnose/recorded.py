@@ -19,7 +19,7 @@ from statorhom.diagnose.measured import (
     PlaneShifts,
     Sideband,
 )
-from statorhom.diagnose.plane_shifts import plane_shifts, strongest
+from statorhom.diagnose.plane_shifts import distinct_doublets, doubtful_axial, plane_shifts, strongest
 from statorhom.extraction.flat_bodies import is_flat_body
 from statorhom.extraction.measured_modes import MeasuredModes, measured_modes
 from statorhom.extraction.modal_table_text import modal_table
@@ -34,7 +34,7 @@ from statorhom.study.modal_table import MeasuredMode, ModalTable
 from statorhom.study.modal_tests import ModalTestKeys
 from statorhom.study.study import StudyFiles
 
-FOLDER, FORMAT = "recordings", 8  # a change of method makes what is kept stale
+FOLDER, FORMAT = "recordings", 10  # a change of method makes what is kept stale
 
 
 @dataclass(frozen=True)
@@ -117,14 +117,24 @@ def _recorded(task: RecordedTest, tick: Tick) -> MeasuredTest:
 
 def from_recording(measured: MeasuredModes, stage: int, name: str, support: str, path: Path) -> MeasuredTest:
     """A test from its extracted modes; weaker images of one mode are left out."""
-    paired = {i for d in measured.doublets for i in (d.lower, d.upper)}
+    doublets = distinct_doublets(measured)
+    paired = {i for d in doublets for i in (d.lower, d.upper)}
     flat = is_flat_body(measured.extraction.points)
     kept = set(distinct_modes(measured) if flat else strongest(measured.modes, paired))
     shifts = plane_shifts(measured)
     moved = {s.label: 1.0 + s.mean for s in shifts}
+    for d in doublets:
+        # both modes of a doublet move alike: each point sees the one whose antinode it is
+        own = [moved[label] for i in (d.lower, d.upper) if (label := str(i + 1)) in moved]
+        moved |= {str(i + 1): own[0] for i in (d.lower, d.upper) if own}
+    doubtful = set() if flat else doubtful_axial(measured.modes, sorted(kept))
     rows = [
-        replace(row, frequency_hz=row.frequency_hz * moved.get(row.label, 1.0))
-        for row in modal_table(measured, path).modes
+        replace(
+            row,
+            frequency_hz=row.frequency_hz * moved.get(row.label, 1.0),
+            axial=None if i in doubtful else row.axial,
+        )
+        for i, row in enumerate(modal_table(measured, path).modes)
     ]
     return MeasuredTest(
         stage,
@@ -132,7 +142,7 @@ def from_recording(measured: MeasuredModes, stage: int, name: str, support: str,
         support,
         tuple(row for i, row in enumerate(rows) if i in kept),
         recorded=True,
-        splits=tuple(_split(measured, d) for d in measured.doublets),
+        splits=tuple(_split(measured, d) for d in doublets),
         shifts=shifts,
         sidebands=tuple(s for i in sorted(kept) if (s := _sideband(measured, i)) is not None),
         shapes=_shapes(measured, sorted(kept)),

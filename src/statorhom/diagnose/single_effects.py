@@ -128,18 +128,20 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool) -> Refit | 
     far : whether the declared model is so far off that wide valleys come first.
     """
     found: list[Refit] = []
+    cheap = far and np.isinf(worth) and price((0.0, list(starts))) == CHEAP
     for start in starts:
-        if found and explained(found[-1], {}).adequacy_but_one > ADEQUATE:
+        if found and not cheap and explained(found[-1], {}).adequacy_but_one > ADEQUATE:
             break
         if np.isfinite(worth):
             found += _kept(_rival(start, worth))
             continue
         for wide in (True, False) if far else (False, True):
             found += _kept(_through(start) if wide else refitted(start.hypothesis, start.z))
-            if found and not is_poor(found[-1]):
+            # on the way through wide valleys constants may leave the valley where they belonged all the time
+            if found and not is_poor(found[-1]) and not (cheap and wide):
                 break
     best = min(found, key=_objective, default=None)
-    if best is not None and far and np.isinf(worth) and price((0.0, list(starts))) == CHEAP:
+    if best is not None and cheap:
         best = min([best, *_beside_later_steps(best)], key=_objective)
     return best
 
