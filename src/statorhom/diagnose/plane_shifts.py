@@ -96,7 +96,7 @@ def strongest(modes: Sequence[NamedMode], paired: set[int]) -> list[int]:
 
 
 def doubtful_axial(modes: Sequence[NamedMode], kept: Sequence[int]) -> set[int]:
-    """Numbers of those whose images have other node planes: each image holds the planes at which the pole is its own."""
+    """Numbers of those whose images have other node planes: each image has the planes at which the pole is its own."""
 
     def is_image(one: NamedMode, other: NamedMode) -> bool:
         near = abs(np.log(other.mode.frequency_hz / one.mode.frequency_hz)) < CLOSE
