@@ -2,10 +2,19 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
-from statorhom.diagnose.plane_shifts import _by_plane
+from statorhom.diagnose.plane_shifts import (
+    _by_plane,
+    distinct_doublets,
+    doubtful_axial,
+    stands_off,
+    strongest,
+)
 
 PLANES = (0.01, 0.04)
 LOSS = 0.01
@@ -34,3 +43,58 @@ def test_points_that_contradict_each_other_do_not() -> None:
 def test_one_plane_tells_no_trend() -> None:
     heights, moved, sd = shifts(SD)
     assert _by_plane("1", heights[:24], moved[:24], sd[:24], LOSS) is None
+
+
+def test_points_may_differ_by_little_of_what_the_planes_differ() -> None:
+    """By five standard deviations more than points may differ, but by a twentieth of the trend."""
+    heights, moved, sd = shifts(5e-5)
+    found = _by_plane("1", heights, moved, sd / 4, LOSS)
+    assert found is not None
+    assert found.shift == pytest.approx([-5e-4, 5e-4], abs=5e-5)
+
+
+def mode(frequency_hz: float, order: int, axial: int, size: float) -> Any:
+    own = SimpleNamespace(
+        frequency_hz=frequency_hz,
+        loss_factor=LOSS,
+        participation=np.array([size]),
+        shape=np.ones(4),
+        bandwidth_hz=LOSS * frequency_hz,
+    )
+    return SimpleNamespace(mode=own, order=order, axial=axial)
+
+
+# a doublet at the planes where the sensor moves it, its image at the planes where it does not, and a neighbour
+MODES = (
+    mode(3199.6, 3, 1, 5.0),
+    mode(3199.7, 3, 1, 5.0),
+    mode(3203.2, 3, 1, 4.0),
+    mode(3203.3, 3, 3, 4.0),
+    mode(3215.0, 1, 1, 6.0),
+    mode(4400.0, 3, 1, 4.0),
+    mode(4400.2, 3, 1, 4.0),
+)
+DOUBLETS = tuple(SimpleNamespace(lower=i, upper=i + 1) for i in (0, 2, 5))
+
+
+def test_the_weaker_image_of_a_doublet_is_none() -> None:
+    measured: Any = SimpleNamespace(modes=MODES, doublets=DOUBLETS)
+    assert [d.lower for d in distinct_doublets(measured)] == [0, 5]
+
+
+def test_of_a_doublet_that_no_point_parts_one_mode_is_kept() -> None:
+    assert strongest(MODES, set()) == [0, 1, 4, 5, 6]
+    bigger = (*MODES[:1], mode(3199.7, 3, 1, 5.5), *MODES[2:])
+    assert strongest(bigger, set()) == [1, 4, 5, 6]
+
+
+def test_images_that_count_other_node_planes_make_the_name_doubtful() -> None:
+    assert doubtful_axial(MODES, [0, 1, 4, 5, 6]) == {0, 1}
+    assert doubtful_axial((*MODES[:3], MODES[2], *MODES[4:]), [0, 1, 4, 5, 6]) == set()
+
+
+def test_images_do_not_hide_the_mode_s_own_pole_but_neighbours_do() -> None:
+    assert not stands_off(MODES, 1, [1, 4, 5])
+    assert stands_off(MODES, 1, [1, 5])
+    images = (*MODES[:3], mode(3203.3, 3, 3, 4.0), *MODES[4:])
+    assert stands_off(images, 1, [1, 5])
