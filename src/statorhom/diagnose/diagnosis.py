@@ -27,6 +27,7 @@ from statorhom.diagnose.explanations import (
     effect_evidence,
     nothing,
 )
+from statorhom.diagnose.gross_rows import without_gross_rows
 from statorhom.diagnose.held_out import HeldOut, held_out
 from statorhom.diagnose.held_out_name import held_out_names, renames_alone
 from statorhom.diagnose.measured import MeasuredTest
@@ -135,6 +136,7 @@ def _find(
         # one gross error asks for no second effect
         if found and found[0].adequacy_but_one < ADEQUATE:
             found = _pairs(base, found, signatures, counts) + found
+        found = without_gross_rows(base.free, found, counts)
     else:
         # nothing but another name can be found any more
         found = new_names(base.free, discrete, counts)
@@ -143,7 +145,7 @@ def _find(
     best = found[0] if found else none
     if found:
         # reported numbers come from the explanation's own model, comparisons from the common one
-        best = replace(approach.final(best), log_evidence=best.log_evidence)
+        best = replace(approach.final(best), log_evidence=best.log_evidence, compared=best.compared)
     evidence = _evidence(base, best, none, found, signatures, settings.seed)
     return Found(decide(evidence), best, tuple(found), signatures, evidence, base)
 

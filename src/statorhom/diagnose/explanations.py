@@ -15,6 +15,7 @@ from typing_extensions import TypeVar
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.refit import H, Refit, refit
 from statorhom.errors import StatorhomError
+from statorhom.model.convergence import ModeKey
 from statorhom.physics.candidate import Candidate
 
 _H = TypeVar("_H", bound=AnyHypothesis)
@@ -36,16 +37,23 @@ class Explanation(Generic[H]):
     candidates : the effects.
     refit : of all constants.
     log_evidence : with the prior over the effects' candidates.
+    compared : refit by which it is compared with others, where that is another one.
     """
 
     candidates: tuple[Candidate, ...]
     refit: Refit[H]
     log_evidence: float
+    compared: Refit[H] | None = None
 
     @property
     def effects(self) -> tuple[str, ...]:
         """Names."""
         return tuple(c.effect for c in self.candidates)
+
+    @property
+    def set_aside(self) -> frozenset[tuple[str, ModeKey | None]]:
+        """Groups of features that no explanation explains: they tell nothing of which one is right."""
+        return frozenset() if self.compared is None else self.compared.hypothesis.left_out
 
     @property
     def adequacy(self) -> float:

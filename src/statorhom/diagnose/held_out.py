@@ -120,7 +120,7 @@ def held_out(base: Refit, explanation: Explanation) -> HeldOut:
 
     A density is what no recording saw: that the recordings alone ask for a plausible one is a test of its own.
     """
-    groups = [g for g in _groups(base, explanation) if g != WEIGHED]
+    groups = [g for g in _groups(base, explanation) if g not in {WEIGHED, *explanation.set_aside}]
     found = _predicted(base, explanation, [frozenset(groups[k::FOLDS]) for k in range(FOLDS)])
     if not found.falls and not found.worsens and _moves_densities(base, explanation):
         weighed = _predicted(base, explanation, [frozenset([WEIGHED])])

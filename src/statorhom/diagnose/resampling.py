@@ -32,8 +32,9 @@ def stability(explanations: Sequence[Explanation], seed: int) -> float:
     """
     if len(explanations) < 3:
         return 1.0
-    observed = [[f.observed for f in e.refit.hypothesis.features(e.refit.z)] for e in explanations]
-    residuals = [e.refit.hypothesis.residuals(e.refit.z) for e in explanations]
+    refits = [e.compared or e.refit for e in explanations]
+    observed = [[f.observed for f in r.hypothesis.features(r.z)] for r in refits]
+    residuals = [r.hypothesis.residuals(r.z) for r in refits]
     units = _units([rows for part in observed for rows in part])
     rng = np.random.default_rng(seed)
     outcomes = []
@@ -42,12 +43,10 @@ def stability(explanations: Sequence[Explanation], seed: int) -> float:
         chosen = frozenset().union(*(units[i] for i in kept))
         noise, width = FACTORS[draw % 3], FACTORS[(draw // 3) % 3]
         scores = []
-        for e, own, r in zip(explanations, observed, residuals, strict=True):
+        for e, own, r, left in zip(explanations, observed, refits, residuals, strict=True):
             rows = np.array([one <= chosen for one in own])
             # an explanation's features may differ in number; what it says beside them is common to all
-            scores.append(
-                resampled_evidence(e.refit, r, rows, noise, width) + e.log_evidence - e.refit.log_evidence
-            )
+            scores.append(resampled_evidence(r, left, rows, noise, width) + e.log_evidence - r.log_evidence)
         outcomes.append(wins(scores))
     counted = [won for won in outcomes if won is not None]
     return float(np.mean(counted)) if counted else 1.0
