@@ -15,7 +15,6 @@ from statorhom.modes.doublets import DoubletPair
 CLOSE = 0.012  # of the frequency: poles nearer than this may be images of one mode
 APART = 1.0  # half-power bandwidths by which a mode must stand off all others for its own pole to be told
 NARROW = 0.1  # half-power bandwidths between a doublet's modes, below which any point sees one mode, its antinode there
-ALIKE = 0.5  # rad: antinodes of images lie together, those of a doublet's two modes apart
 LEAST_POINTS = 4  # per plane
 LEAST_SD = 5e-6
 # the points of a plane may differ by so many standard deviations, or by that part of what the planes differ
@@ -71,7 +70,7 @@ def distinct_doublets(measured: MeasuredModes) -> tuple[DoubletPair, ...]:
         return (
             (mine.order, mine.axial) == (its.order, its.axial)
             and size[one.lower] + size[one.upper] < size[other.lower] + size[other.upper]
-            and abs(np.log(its.mode.frequency_hz / mine.mode.frequency_hz)) < CLOSE
+            and _close(mine, its)
         )
 
     return tuple(d for d in measured.doublets if not any(is_image(d, e) for e in measured.doublets))
@@ -87,7 +86,7 @@ def strongest(modes: Sequence[NamedMode], paired: set[int]) -> list[int]:
             for j, other in enumerate(modes)
             if j != i
             and size[j] > size[i]
-            and abs(np.log(other.mode.frequency_hz / one.mode.frequency_hz)) < CLOSE
+            and _close(one, other)
             and (one.order is None or other.order == one.order or one.order > 6)
         ]
         if i in paired or not close:
@@ -99,11 +98,14 @@ def doubtful_axial(modes: Sequence[NamedMode], kept: Sequence[int]) -> set[int]:
     """Numbers of those whose images have other node planes: each image has the planes at which the pole is its own."""
 
     def is_image(one: NamedMode, other: NamedMode) -> bool:
-        near = abs(np.log(other.mode.frequency_hz / one.mode.frequency_hz)) < CLOSE
-        return near and other.order == one.order and other.axial != one.axial
+        return _close(one, other) and other.order == one.order and other.axial != one.axial
 
     rest = [mode for j, mode in enumerate(modes) if j not in kept]
     return {i for i in kept if modes[i].order is not None and any(is_image(modes[i], m) for m in rest)}
+
+
+def _close(one: NamedMode, other: NamedMode) -> bool:
+    return bool(abs(np.log(other.mode.frequency_hz / one.mode.frequency_hz)) < CLOSE)
 
 
 def _sizes(modes: Sequence[NamedMode]) -> list[float]:

@@ -138,7 +138,7 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool) -> Refit | 
         for wide in (True, False) if far else (False, True):
             found += _kept(_through(start) if wide else refitted(start.hypothesis, start.z))
             # on the way through wide valleys constants may leave the valley where they belonged all the time
-            if found and not is_poor(found[-1]) and not (cheap and wide):
+            if found and not is_poor(found[-1]) and not cheap:
                 break
     best = min(found, key=_objective, default=None)
     if best is not None and cheap:

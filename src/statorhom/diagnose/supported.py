@@ -216,8 +216,7 @@ def _free_basis(stage: StageModel, test: MeasuredTest) -> TrainedBasis:
 
 
 def _share(modes: BrokenModes, place: Columns) -> np.ndarray:
-    used = [place.cosine] if place.sine is None else [place.cosine, place.sine]
-    energy = np.sum(modes.participation[used] ** 2, axis=0) * place.eigenvalue
+    energy = np.sum(modes.participation[place.numbers] ** 2, axis=0) * place.eigenvalue
     return np.asarray(np.minimum(energy / modes.eigenvalues, 1.0))
 
 

@@ -49,11 +49,7 @@ class TrainedBasis:
         found = self
         for change in examples:
             modes = solve_broken(found.basis, [change], tolerance=None)
-            rows = [
-                i
-                for c in found.columns.values()
-                for i in ([c.cosine] if c.sine is None else [c.cosine, c.sine])
-            ]
+            rows = [i for c in found.columns.values() for i in c.numbers]
             used = np.sum(modes.participation[rows] ** 2, axis=0) > OWN
             values, x = modes.eigenvalues[used], modes.coordinates[:, used]
             found = trained_basis(enriched(found.basis, modes.coupled, values, x, LEAST), named)

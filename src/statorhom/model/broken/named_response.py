@@ -21,6 +21,11 @@ class Columns:
     sine: int | None
     eigenvalue: float
 
+    @property
+    def numbers(self) -> list[int]:
+        """Of its coordinates: two for a doublet."""
+        return [self.cosine] if self.sine is None else [self.cosine, self.sine]
+
 
 @dataclass(frozen=True)
 class Response:
@@ -51,7 +56,7 @@ def columns_of(basis: SymmetricBasis, space: Harmonic, frequency_hz: float) -> C
 
 def named_response(modes: BrokenModes, place: Columns) -> Response | None:
     """Response of a named mode; None where it can no longer be told among the broken ones."""
-    numbers = [place.cosine] if place.sine is None else [place.cosine, place.sine]
+    numbers = place.numbers
     parts = modes.participation[numbers]
     weight = np.sum(parts**2, axis=0)
     chosen = np.sort(np.argsort(-weight)[: len(numbers)])
