@@ -23,7 +23,7 @@ from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.effects.interlaminar_shear import sheared
 from statorhom.physics.library import library
-from statorhom.physics.pieces import region_pieces
+from statorhom.physics.pieces import region_pieces, yoke_layers
 
 TOP = 9000.0
 STACK = {"lamination": MATERIALS["lamination"]}
@@ -94,9 +94,9 @@ def test_a_lump_follows_the_first_order_rules(stage: StageModel, angle: float) -
 
 def test_responses_grow_linearly_and_turn_with_their_cause(stage: StageModel) -> None:
     mesh, pitch = stage.model.mesh, 2 * np.pi / 12
-    core = region_pieces(mesh, "lamination", STACK["lamination"])
+    core = yoke_layers(mesh, STACK["lamination"], 0.0)
     small, large, turned = (
-        responses(stage, [strip(mesh, core, a, width=0.3, depth=0.004, ratio=1 + e)])
+        responses(stage, [strip(core, a, width=0.3, depth=0.004, ratio=1 + e)])
         for a, e in ((0.2, 0.01), (0.2, 0.02), (0.2 + pitch, 0.01))
     )
     for key in ((2, 0, 0), (3, 0, 0)):

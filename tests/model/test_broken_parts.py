@@ -17,6 +17,7 @@ from statorhom.model.broken.cells import Sectors, cells
 from statorhom.model.broken.change import PieceChange
 from statorhom.model.broken.dense_modes import lowest_coupled
 from statorhom.model.broken.interface import contact, split
+from statorhom.model.broken.layers import radial_layers
 from statorhom.model.broken.pieces import elements_in
 from statorhom.model.broken.signature import projected, slopes
 from statorhom.model.broken.solve import solve_broken
@@ -50,6 +51,11 @@ def whole_columns(of):
         parts.append(ShapePart(problem.sector.space, problem.vectors, *families))
     shapes = SupportedModes(np.zeros(len(unit)), np.zeros(len(unit)), tuple(parts))
     return np.array([shapes.full_shape(of.mesh, i).ravel() for i in range(len(unit))]).T
+
+
+@cache
+def layers():
+    return radial_layers(stack().half, "lamination", HOOKE["lamination"], 2)
 
 
 def core():
@@ -183,7 +189,7 @@ def changes(kind, strength):
     if kind == "lump":
         return lump(half, 0.9, 0.03, strength)
     if kind == "strip":
-        return strip(half, core(), 0.9, width=0.2, depth=0.004, ratio=1.0 + strength)
+        return strip(layers(), 0.9, width=0.2, depth=0.004, ratio=1.0 + strength)
     return wave(half, core(), 0.9, harmonic=3, amplitude=strength, inner=0.05)
 
 

@@ -14,6 +14,7 @@ from statorhom.model.broken.basis import symmetric_basis
 from statorhom.model.broken.cells import Sectors, cells
 from statorhom.model.broken.change import PieceChange
 from statorhom.model.broken.interface import contact, split
+from statorhom.model.broken.layers import radial_layers
 from statorhom.model.broken.pieces import elements_in, stiffness_pieces
 from statorhom.model.broken.solve import solve_broken
 from statorhom.model.broken.variations import arc, gradient, region_mass, region_stiffness, strip, wave
@@ -83,8 +84,10 @@ def _core(w):
 
 def on_a_strip(ratio):
     def make(w):
-        core, hooke = _core(w)
-        change = strip(w.half, core, 0.7, width=np.deg2rad(10.0), depth=0.003, ratio=ratio)
+        _, hooke = _core(w)
+        # one layer an element: its weights are those of the whole stator's elements
+        layers = radial_layers(w.half, "lamination", hooke["lamination"], 1)
+        change = strip(layers, 0.7, width=np.deg2rad(10.0), depth=0.003, ratio=ratio)
         return [change], w.K + scaled_stiffness(w, LAMINATION, hooke, change.weights), w.M
 
     return make

@@ -9,14 +9,17 @@ from typing import Protocol
 import numpy as np
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
-from statorhom.model.affine import Material, Materials
+from statorhom.model.affine import Material, Materials, hooke_coefficients
 from statorhom.model.broken.attachments import footed_lump, point_springs
 from statorhom.model.broken.cells import Sectors, cells
 from statorhom.model.broken.change import Attachment, Change, PieceChange
 from statorhom.model.broken.interface import Contact
+from statorhom.model.broken.layers import radial_layers
 from statorhom.model.broken.pieces import Pieces, elements_in
 from statorhom.model.broken.variations import gradient, strip, wave
 from statorhom.model.surface import surface_points
+
+STRIP_LAYERS = 6  # an element: more than a diagnosis takes, on a finer mesh
 
 
 class Ground(Protocol):
@@ -106,8 +109,10 @@ class Strip:
 
     def changes(self, ground: Ground) -> tuple[Change, ...]:
         """On a mesh."""
-        pieces = ground.pieces("lamination")
-        return (strip(ground.mesh, pieces, self.angle, width=self.width, depth=self.depth, ratio=self.ratio),)
+        inner = ground.mesh.outer_radius - self.depth
+        entries = hooke_coefficients(ground.materials["lamination"].hooke)
+        core = radial_layers(ground.mesh, "lamination", entries, STRIP_LAYERS, inner)
+        return (strip(core, self.angle, width=self.width, depth=self.depth, ratio=self.ratio),)
 
 
 @dataclass(frozen=True)

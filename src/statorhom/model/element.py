@@ -59,7 +59,19 @@ def shape_values(points: np.ndarray) -> np.ndarray:
 def gauss_table(order: int = 5) -> ShapeTable:
     """Table on the Gauss points that integrate polynomials of `order` exactly (5: 3 × 3 × 3 points)."""
     points, weights = get_quadrature(ElementHexS2, order)
-    values, gradients = shape_functions(points.T)
+    return _table(points.T, weights)
+
+
+def layer_table(axis: int, low: float, high: float, order: int = 5) -> ShapeTable:
+    """Table on the Gauss points of a layer of the reference cube, between two coordinates of one axis."""
+    points, weights = get_quadrature(ElementHexS2, order)
+    within = points.T.copy()
+    within[:, axis] = low + (high - low) * within[:, axis]
+    return _table(within, (high - low) * weights)
+
+
+def _table(points: np.ndarray, weights: np.ndarray) -> ShapeTable:
+    values, gradients = shape_functions(points)
     for array in (values, gradients, weights):
         array.setflags(write=False)
     return ShapeTable(values, gradients, weights)

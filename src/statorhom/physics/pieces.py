@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from collections import OrderedDict
+from collections.abc import Callable
+from typing import TypeVar, cast
 
 import numpy as np
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Material, hooke_coefficients
+from statorhom.model.broken.layers import Layers, radial_layers
 from statorhom.model.broken.pieces import Pieces, stiffness_pieces
 
 ALL = (True,) * 9
 MOST = 12  # sets of pieces that are kept
-_KEPT: OrderedDict[tuple[int, str, tuple[float, ...]], tuple[HalfPitchMesh, Pieces]] = OrderedDict()
+LAYERS = 4  # an element, where the depth of a feature counts
+_KEPT: OrderedDict[tuple[object, ...], tuple[HalfPitchMesh, Pieces | Layers]] = OrderedDict()
+_Kept = TypeVar("_Kept", Pieces, Layers)
 
 
 def region_pieces(
@@ -26,11 +31,26 @@ def region_pieces(
     region, material : whose stiffness.
     entries : which of the nine Hooke entries (`statorhom.model.assembly.HOOKE_ENTRIES`) count.
     """
-    used = tuple(np.where(entries, hooke_coefficients(material.hooke), 0.0).tolist())
-    key = (id(mesh), region, used)
+    return hooke_pieces(mesh, region, np.where(entries, hooke_coefficients(material.hooke), 0.0))
+
+
+def hooke_pieces(mesh: HalfPitchMesh, region: str, coefficients: np.ndarray) -> Pieces:
+    """Pieces of a region's elements of which the nine Hooke entries are given, whether of a material or of a change."""
+    key = (id(mesh), region, *coefficients.tolist())
+    return _kept(mesh, key, lambda: stiffness_pieces(mesh, {region: coefficients}))
+
+
+def yoke_layers(mesh: HalfPitchMesh, material: Material, inner: float) -> Layers:
+    """Layers of the lamination's elements that reach beyond a radius (m)."""
+    coefficients = hooke_coefficients(material.hooke)
+    key = (id(mesh), inner, *coefficients.tolist())
+    return _kept(mesh, key, lambda: radial_layers(mesh, "lamination", coefficients, LAYERS, inner))
+
+
+def _kept(mesh: HalfPitchMesh, key: tuple[object, ...], make: Callable[[], _Kept]) -> _Kept:
     if key not in _KEPT:
         while len(_KEPT) >= MOST:
             _KEPT.popitem(last=False)
         # the mesh is kept with its pieces, so that its id stays its own
-        _KEPT[key] = (mesh, stiffness_pieces(mesh, {region: np.array(used)}))
-    return _KEPT[key][1]
+        _KEPT[key] = (mesh, make())
+    return cast("_Kept", _KEPT[key][1])

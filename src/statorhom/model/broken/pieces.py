@@ -90,5 +90,9 @@ def _pieces(mesh: HalfPitchMesh, numbers: np.ndarray, blocks: object) -> Pieces:
             part = places[first : first + CHUNK]
             geometry = element_geometry(mesh.nodes[mesh.elements[numbers[part]]], gauss_table())
             matrices[part] = blocks(region, geometry)
-    dofs = (3 * mesh.elements[numbers][:, :, None] + np.arange(3)).reshape(len(numbers), 60)
-    return Pieces(dofs, matrices, 3 * len(mesh.nodes))
+    return Pieces(element_dofs(mesh, numbers), matrices, 3 * len(mesh.nodes))
+
+
+def element_dofs(mesh: HexMesh, numbers: np.ndarray) -> np.ndarray:
+    """Displacements (e, 60) of elements, given by their numbers."""
+    return (3 * mesh.elements[numbers][:, :, None] + np.arange(3)).reshape(len(numbers), 60)

@@ -1,7 +1,7 @@
 """Stiffness that differs around the stator or along it: strips, arcs, waves and gradients, element by element.
 
 An element that is covered in part counts by its covered share, so that results are smooth in every angle and size;
-where within an element a feature lies is not resolved.
+where within an element a feature lies is not resolved, but for the depth of strips (`layers.py`).
 """
 
 from __future__ import annotations
@@ -14,25 +14,23 @@ from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Materials, hooke_coefficients
 from statorhom.model.broken.cells import Sectors, cells
 from statorhom.model.broken.change import PieceChange
+from statorhom.model.broken.layers import Layers
 from statorhom.model.broken.pieces import Pieces, elements_in, mass_pieces, stiffness_pieces
 
 
-def strip(
-    mesh: HalfPitchMesh, core: Pieces, angle: float, *, width: float, depth: float, ratio: float
-) -> PieceChange:
-    """An axial strip of the back of the core whose stiffness differs; an element counts by its covered share.
+def strip(core: Layers, angle: float, *, width: float, depth: float, ratio: float) -> PieceChange:
+    """An axial strip of the back of the core whose stiffness differs; a layer counts by its covered share.
 
     Parameters
     ----------
-    core : stiffness of the lamination's elements (`region_stiffness`).
+    core : layers of the lamination's elements.
     angle, width : of the strip's middle, and how wide it is (rad).
     depth : how deep it reaches below the core's outer radius (m).
     ratio : modulus within the strip over that of the core.
     """
-    place = cells(mesh, elements_in(mesh, ("lamination",)))
-    inside = place.share_of_arc(angle - width / 2, angle + width / 2)
-    inside = inside * place.share_of_depth(mesh.outer_radius - depth, mesh.outer_radius)[:, None]
-    return PieceChange(core, None, (ratio - 1.0) * inside)
+    inside = core.place.share_of_arc(angle - width / 2, angle + width / 2)
+    inside = inside * core.place.share_of_depth(core.outer - depth, core.outer)[:, None]
+    return PieceChange(core.pieces, None, (ratio - 1.0) * inside)
 
 
 def wave(

@@ -14,14 +14,15 @@ from statorhom.physics.action import Action, Patch, Training
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.effect import Confusion, Effect, Words
 from statorhom.physics.parameter import EffectParameter, angle
-from statorhom.physics.pieces import region_pieces
+from statorhom.physics.pieces import yoke_layers
 from statorhom.physics.plan import plan_of
 from statorhom.study.study import StudyFiles
 
 WIDTH_RAD = 0.1745  # 10°
-DEPTH_SHARE = 0.5  # of the yoke
+USUAL_DEPTH = 0.5  # of the yoke
 TRAINED = 0.6  # strength of the examples: their fields are those of other strengths too
 SPREAD = 0.12  # of a coupon's sides: radius of a patch
+DEPTHS = (0.25, 0.9, 0.1, 1.0)  # of the yoke: 5 % and 95 % quantile of the prior, and limits
 RATIO = EffectParameter("stiffness_ratio", 0.3, 2.5, 0.02, 12.0, "log", (0.6, 1.6), 1.0)
 
 
@@ -35,7 +36,9 @@ class LocalStiffness(Effect):
         ),
         Confusion("ovality", "several orders r split"),
     )
-    note = "modulus of an axial strip of the yoke, 10° wide and half the yoke deep, over that of the core"
+    note = (
+        "modulus of an axial strip of the yoke, 10° wide, over that of the core; its depth is found as well"
+    )
 
     coupon_words = Words(
         "a part of the body is stiffer or softer: a flaw, a repair, an uneven thickness",
@@ -45,12 +48,19 @@ class LocalStiffness(Effect):
 
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         stages = [stage.name for stage in files.study.stages if stage.tests]
-        return tuple(Candidate(self.name, name, (RATIO, angle()), "lamination") for name in stages[:1])
+        depth = _depth(files.geometry.core.yoke_thickness_mm)
+        return tuple(Candidate(self.name, name, (RATIO, angle(), depth), "lamination") for name in stages[:1])
 
     def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         plan = plan_of(files)
         stages = [] if plan is None else [stage.name for stage in files.study.stages if stage.tests]
         return tuple(Candidate(self.name, name, (RATIO, *plan.places())) for name in stages if plan)
+
+    def reported(self, candidate: Candidate, values: Mapping[str, float]) -> dict[str, float | str]:
+        found = super().reported(candidate, values)
+        if "depth_mm" in values:
+            found |= {"width_deg": round(float(np.degrees(WIDTH_RAD)), 1), "depth_mm": values["depth_mm"]}
+        return found
 
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
         plan = plan_of(files)
@@ -59,21 +69,26 @@ class LocalStiffness(Effect):
             radii = (SPREAD * plan.radii[0], SPREAD * plan.radii[1])
             patch = Patch((x, y), radii, values["stiffness_ratio"])
             return Action(patches=(patch,), stages=frozenset({candidate.stage}))
-        depth = DEPTH_SHARE * files.geometry.core.yoke_thickness_mm / 1e3
+        yoke = files.geometry.core.yoke_thickness_mm / 1e3
 
         def changes(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
-            core = region_pieces(mesh, "lamination", materials["lamination"])
-            ratio, place = values["stiffness_ratio"], values["angle_rad"]
-            return (strip(mesh, core, place, width=WIDTH_RAD, depth=depth, ratio=ratio),)
+            core = yoke_layers(mesh, materials["lamination"], mesh.outer_radius - yoke)
+            ratio, place, depth = values["stiffness_ratio"], values["angle_rad"], 1e-3 * values["depth_mm"]
+            return (strip(core, place, width=WIDTH_RAD, depth=depth, ratio=ratio),)
 
         def examples(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
-            core = region_pieces(mesh, "lamination", materials["lamination"])
-            places = np.array([0.0, 0.5, 1.0]) * np.pi / mesh.slots
-            return tuple(
-                strip(mesh, core, place, width=WIDTH_RAD, depth=depth, ratio=TRAINED) for place in places
-            )
+            core = yoke_layers(mesh, materials["lamination"], mesh.outer_radius - yoke)
+            places, depth = np.array([0.0, 0.5, 1.0]) * np.pi / mesh.slots, USUAL_DEPTH * yoke
+            return tuple(strip(core, place, width=WIDTH_RAD, depth=depth, ratio=TRAINED) for place in places)
 
         return Action(changes=changes, training=Training(self.name, examples))
+
+
+def _depth(yoke_mm: float) -> EffectParameter:
+    """How deep the strip reaches, of a yoke."""
+    low90, high90, lower, upper = (share * yoke_mm for share in DEPTHS)
+    usual = USUAL_DEPTH * yoke_mm
+    return EffectParameter("depth_mm", low90, high90, lower, upper, "log", (usual,), None, usual=usual)
 
 
 EFFECT = LocalStiffness()
