@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
+from statorhom.diagnose.shown_nodes import shown_nodes
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.model.broken.change import Change
 from statorhom.model.broken.named_response import Response, named_response
@@ -26,5 +28,10 @@ def responses(
     """
     trained = stage.trained(trainings)
     modes = solve_broken(trained.basis, changes, tolerance=None)
+    shown = shown_nodes(modes, trained.columns, stage.reference_keys)
     found = {key: named_response(modes, place) for key, place in trained.columns.items()}
-    return {key: response for key, response in found.items() if response is not None}
+    return {
+        key: replace(response, other_axial=shown.get(key))
+        for key, response in found.items()
+        if response is not None
+    }

@@ -103,7 +103,7 @@ def assigned(
     test: MeasuredTest, modes: Sequence[MeasuredMode], predicted: Mapping[ModeKey, PredictedMode]
 ) -> Keys:
     """Named partner of every measured mode."""
-    simulated = sorted(predicted.values(), key=lambda mode: mode.frequency_hz)
+    simulated = sorted((_as_seen(m, modes) for m in predicted.values()), key=lambda mode: mode.frequency_hz)
     used = [i for i, mode in enumerate(modes) if not (test.recorded and mode.order is None)]
     found = pair(
         [modes[i] for i in used],
@@ -117,6 +117,17 @@ def assigned(
     for p in found.pairs:
         keys[used[p.measured]] = simulated[p.simulated].key
     return tuple(keys)
+
+
+def _as_seen(mode: PredictedMode, modes: Sequence[MeasuredMode]) -> PredictedMode:
+    """Called by the one of its two counts of node planes that was measured nearer to its frequency."""
+    if mode.other_axial is None:
+        return mode
+    away = {mode.axial: np.inf, mode.other_axial: np.inf}
+    for row in modes:
+        if row.order == mode.order and row.axial in away:
+            away[row.axial] = min(away[row.axial], abs(np.log(row.frequency_hz) - mode.log_f))
+    return replace(mode, counted=away[mode.other_axial] < away[mode.axial])
 
 
 def missed_cost(test: MeasuredTest, keys: Keys, predicted: Mapping[ModeKey, PredictedMode]) -> float:

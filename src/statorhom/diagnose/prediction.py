@@ -44,6 +44,8 @@ class PredictedMode(NamedByMode):
     shares : source of a material, or "joint" → share of the strain energy; empty unless damping is predicted.
     friction : what slipping adds to the loss factor.
     scattered : relative split by a unit of the scatter of its order.
+    other_axial : count of node planes that the hypothesis may make it show instead of its own.
+    counted : whether that is what it is counted by.
     """
 
     key: ModeKey
@@ -55,6 +57,12 @@ class PredictedMode(NamedByMode):
     shares: Mapping[str, float] = field(default_factory=dict)
     friction: float = 0.0
     scattered: float = 1.0
+    other_axial: int | None = None
+    counted: bool = False
+
+    @property
+    def axial(self) -> int | None:
+        return self.other_axial if self.counted else self.mode.axial
 
     @property
     def frequency_hz(self) -> float:
@@ -155,6 +163,7 @@ def predicted(
             shared,
             one.slope,
             scattered=stage.scattered.get(key, 1.0),
+            other_axial=response.other_axial,
         )
     return found
 

@@ -35,10 +35,12 @@ class Response:
     ----------
     shift : change of ln f of the doublet's mean λ.
     split : complex split b_r over the mean λ (`statorhom.modes.doublets.complex_split`).
+    other_axial : count of node planes that it may show as well as its own.
     """
 
     shift: float
     split: complex
+    other_axial: int | None = None
 
 
 def columns_of(basis: SymmetricBasis, space: Harmonic, frequency_hz: float) -> Columns | None:
