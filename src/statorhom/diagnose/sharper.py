@@ -14,12 +14,16 @@ import numpy as np
 
 from statorhom.diagnose.explanations import ADEQUATE, Explanation, explained, refitted, through_wide_valleys
 from statorhom.diagnose.prediction import acted_materials
+from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.stage_model import mesh_error, with_reference
 
 MOST = 3  # explanations that get models of their own before a second effect is sought
 ROUNDS = 3  # models of one explanation
 SETTLED = 2.0  # of the objective, that another one must have gained
 WORSE = 10.0  # of the objective, by which a model of its own is worse than the common one
+WELL = 0.1  # chance of the misfit from which on no deeper valley is sought
+VAGUE = 1.0  # prior standard deviation of a logarithm from which on a constant may be far on either side
+ASIDE = 1.5  # prior standard deviations to either side where such a constant is tried
 BEHIND = 150.0  # log evidence by which others are too far behind for that
 
 
@@ -34,7 +38,10 @@ def sharpened(explanation: Explanation) -> Explanation:
         if found.adequacy > ADEQUATE or gained < SETTLED:
             break
         explanation, found = found, _sharpened(found)
-    return found
+    if found.adequacy > WELL:
+        return found
+    deeper = _on_other_sides(found.refit)
+    return found if deeper is found.refit else _sharpened(replace(found, refit=deeper))
 
 
 def _sharpened(explanation: Explanation) -> Explanation:
@@ -81,10 +88,24 @@ def _deepest(explanation: Explanation, valleys: Sequence[np.ndarray], counts: di
     n = best.hypothesis.constants
     starts = [best.z, *(np.r_[v, best.z[n:]] for v in valleys)]
     for start in starts:
-        if explained(best, counts).adequacy > ADEQUATE:
+        if explained(best, counts).adequacy > WELL:
             break
         again = through_wide_valleys(best.hypothesis, start)
         if again is not None and again.objective < best.objective:
             best = again
     # models cost more than refits: another one only where the valley is another
     return explained(best if best is near else sharpened(explained(best, counts)).refit, counts)
+
+
+def _on_other_sides(best: Refit) -> Refit:
+    """The best of refits in which constants of which little was known start far away, one at a time."""
+    for i, constant in enumerate(best.hypothesis.study.constants.items):
+        if not constant.log or constant.sd < VAGUE:
+            continue
+        for side in (-ASIDE, ASIDE):
+            start = best.z.copy()
+            start[i] = side
+            again = refitted(replace(best.hypothesis, held=None), start, worth=best.objective)
+            if again is not None and again.objective < best.objective - SETTLED:
+                best = again
+    return best
