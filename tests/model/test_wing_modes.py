@@ -69,7 +69,7 @@ def test_cloth_is_turned_into_the_panel(slender):
 
 
 @pytest.mark.slow
-def test_the_flying_wing_s_modes_converge_from_above():
+def test_the_flying_wing_s_modes_are_found_on_the_coarsest_mesh():
     materials = {
         "skin": Material(CLOTH.hooke(), 1510.0),
         "core": Material(Isotropic(60e6, 0.3).hooke(), 80.0),
@@ -81,4 +81,4 @@ def test_the_flying_wing_s_modes_converge_from_above():
         for f in (1.0, 1.5)
     ]
     coarse, fine = np.array(series)
-    assert np.all(fine < coarse) and np.all(fine > 0.95 * coarse)
+    assert np.all(fine < coarse) and np.all(fine > 0.997 * coarse)

@@ -70,9 +70,13 @@ class PointMasses:
 
 @dataclass(frozen=True, eq=False)
 class PartMesh(HexMesh):
-    """Mesh of the part that a symmetric body is copied from; `axes` are those of its materials."""
+    """Mesh of the part that a symmetric body is copied from.
+
+    `axes` are those of its materials; its stiffness is integrated at Gauss points exact for the order `quadrature`.
+    """
 
     axes: ClassVar[Literal["cylindrical", "cartesian"]]
+    quadrature: ClassVar[int] = 5
 
     def cell_axes(self, numbers: np.ndarray) -> np.ndarray | None:  # noqa: ARG002
         """Materials' axes (k, 3, 3) of some elements as columns, in components of `axes`; None where they are these."""

@@ -178,11 +178,13 @@ def _region_terms(
     stiffness: list[list[np.ndarray]] = [[] for _ in HOOKE_ENTRIES]
     mass = []
     volume = 0.0
-    for numbers, geometry in chunks(mesh, region, FRAMES[mesh.axes]):
+    frame = FRAMES[mesh.axes]
+    for numbers, geometry in chunks(mesh, region, frame, mesh.quadrature):
         for term, matrices in zip(
             stiffness, stiffness_blocks(geometry, mesh.cell_axes(numbers)), strict=True
         ):
             term.append(node_blocks(matrices))
+    for _, geometry in chunks(mesh, region, frame):
         mass.append(node_blocks(mass_blocks(geometry, gauss_table().values)))
         volume += float(geometry.volume.sum())
     terms = np.stack([gather.summed(np.concatenate(term)) for term in stiffness])

@@ -216,13 +216,13 @@ def node_blocks(matrices: np.ndarray) -> np.ndarray:
 
 
 def chunks(
-    mesh: HexMesh, region: int, frame: Frame = cylindrical
+    mesh: HexMesh, region: int, frame: Frame = cylindrical, order: int = 5
 ) -> Iterator[tuple[np.ndarray, ElementGeometry]]:
-    """Element numbers and geometry of a region, a chunk at a time."""
+    """Element numbers and geometry of a region, a chunk at a time, at Gauss points of an order (`gauss_table`)."""
     numbers = np.flatnonzero(mesh.region == region)
     for first in range(0, len(numbers), CHUNK):
         part = numbers[first : first + CHUNK]
-        yield part, element_geometry(mesh.nodes[mesh.elements[part]], gauss_table(), frame)
+        yield part, element_geometry(mesh.nodes[mesh.elements[part]], gauss_table(order), frame)
 
 
 def region_volumes(mesh: HexMesh) -> dict[str, float]:

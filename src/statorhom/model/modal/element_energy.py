@@ -61,7 +61,7 @@ def element_energy(
         if region not in model.stiffness:
             continue  # lumps have no elements
         entries = hooke_coefficients(materials[region].hooke)
-        for cells, geometry in chunks(mesh, number, FRAMES[mesh.axes]):
+        for cells, geometry in chunks(mesh, number, FRAMES[mesh.axes], mesh.quadrature):
             blocks = stiffness_blocks(geometry, mesh.cell_axes(cells))
             K = sum(c * block for c, block in zip(entries, blocks, strict=True))
             local = moved[mesh.elements[cells]].reshape(len(cells), 60, k)
