@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from command import statorhom
 from coupon_study import (
     BEAM,
     PLATE,
@@ -131,6 +132,34 @@ def test_from_raw_hits_to_the_material_in_one_command(tmp_path: Path) -> None:
     assert found["nu"].value == pytest.approx(ALUMINIUM.nu, abs=0.02)
     assert stage.regions["plate"].loss_factor is not None
     assert stage.regions["plate"].loss_factor.value == pytest.approx(0.008, rel=0.1)
+
+
+@pytest.mark.slow
+def test_from_raw_hits_to_an_orthotropic_material_in_one_command(tmp_path: Path) -> None:
+    names = write_hits(
+        tmp_path,
+        BlockGeometry("plate", SIZE_M, "truth"),
+        Material(LAMINATE.hooke(), 1890.0),
+        hammer_m=(0.012, 0.02, 0.004),
+        response_m=(0.285, 0.015, 0.004),
+        highest_hz=5000.0,
+    )
+    listed = ", ".join(f'"{name}"' for name in names)
+    test = (
+        f'hits = [{listed}]\nhammer_mm = [12.0, 20.0, 4.0]\nresponse_mm = [285.0, 15.0, 4.0]\ndirection = "z"'
+    )
+    text = study_text("plate", "orthotropic", 1890.0 * 2.4e-4, test, "evaluations = 400")
+    out = tmp_path / "out"
+    done = statorhom("run", write_study(tmp_path, PLATE, text), "--out", out, "--jobs", 2)
+    assert done.code == 0, done.stderr
+    stage = Study.read(out).stages[0]
+    found = engineering(stage.regions["plate"])
+    assert {"E_1_pa", "E_2_pa", "G_12_pa"} <= {n for n, c in found.items() if c.status == "identified"}
+    for name, constant in found.items():
+        true = getattr(LAMINATE, name.translate(str.maketrans("123", "rtz")))
+        if constant.status == "identified":
+            assert constant.value == pytest.approx(true, rel=0.03), name
+        assert constant.ci90[0] * 0.97 < true < constant.ci90[1] * 1.03, name
 
 
 @pytest.mark.slow
