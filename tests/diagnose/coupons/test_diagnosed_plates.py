@@ -100,7 +100,7 @@ def test_a_wrong_thickness_of_a_plate_of_known_material_is_a_wrong_input(tmp_pat
 
 
 def test_a_heavy_roving_accelerometer_is_named_with_its_mass(tmp_path: Path) -> None:
-    mass = 0.0015
+    mass = 0.0005
     plate_recording(tmp_path / "free.uff", LINES, mass, factor=1.3, noise=3e-3)
     study = write_plate(tmp_path, np.array([1.0]))
     study.write_text(study.read_text().replace('modal_table = "free.csv"', 'frf = "free.uff"'))

@@ -1,0 +1,47 @@
+"""Constants of which little was known start on either side where a misfit is left."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from statorhom.diagnose import sharper
+from statorhom.diagnose.constants import Constant
+
+VAGUE = Constant("stack:lamination.E_z_pa", 1e10, 1.7, 1e8, 1e12, log=True)
+KNOWN = Constant("stack:lamination.E_p_pa", 2e11, 0.05, 1e10, 1e12, log=True)
+RATIO = Constant("stack:lamination.nu_p", 0.3, 2.0, 0.0, 5.0)
+
+
+@dataclass(frozen=True)
+class Hypothetical:
+    study: Any
+    held: Any = None
+
+
+def found_at(z: np.ndarray, objective: float) -> Any:
+    study = SimpleNamespace(constants=SimpleNamespace(items=(KNOWN, VAGUE, RATIO)))
+    return SimpleNamespace(hypothesis=Hypothetical(study), z=z, objective=objective)
+
+
+@pytest.mark.parametrize(("there", "objective"), [(40.0, 40.0), (99.0, 100.0)])
+def test_a_valley_on_the_other_side_is_taken_where_it_is_deeper(
+    monkeypatch: pytest.MonkeyPatch, there: float, objective: float
+) -> None:
+    starts = []
+
+    def refitted(_hypothesis: Any, z: np.ndarray, worth: float) -> Any:
+        starts.append(z.copy())
+        assert worth in (100.0, there)
+        return found_at(z, there if z[1] > 0 else 120.0)
+
+    monkeypatch.setattr(sharper, "refitted", refitted)
+    best = sharper._on_other_sides(found_at(np.array([0.2, -0.7, 0.1]), 100.0))
+    assert best.objective == objective
+    # the one that is vague, both sides, and nothing else moved
+    assert [s[1] for s in starts] == [-sharper.ASIDE, sharper.ASIDE]
+    assert all(s[0] == 0.2 and s[2] == 0.1 for s in starts)
