@@ -12,7 +12,7 @@ import numpy.typing as npt
 from statorhom.diagnose.coupons.body_pairing import Partners
 from statorhom.diagnose.coupons.body_prediction import PredictedBody
 from statorhom.diagnose.coupons.body_stage import BodyStage
-from statorhom.diagnose.features import LOST_UNNAMED, NUMBERED, SHIFT_OWN, Feature, measured_sd
+from statorhom.diagnose.features import LOST_UNNAMED, NUMBERED, SHIFT_OWN, SHIFT_PART, Feature, measured_sd
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.model.convergence import ModeKey
 
@@ -127,5 +127,6 @@ def _shift(
     slope = float(weight @ (speed * moved) / (weight @ speed**2)) * scale
     left = moved - float(weight @ moved / weight.sum()) - slope / scale * speed
     spread = float(weight @ left**2) / max(int(np.count_nonzero(usable)) - 2, 1)
-    sd = float(np.sqrt(max(spread, 1.0) / weight.sum()))
+    # many points leave little noise; how well the model knows the shape and its modal mass they do not tell
+    sd = float(np.hypot(np.sqrt(max(spread, 1.0) / weight.sum()), SHIFT_PART * slope))
     return [Feature("shift", test.name, key, slope, -0.5 * sensor_kg * scale, sd)]
