@@ -57,3 +57,31 @@ def test_one_that_does_not_is_given_up_early() -> None:
     _, objective, asked = found(0.5 * FLOOR**2)
     assert objective > FLOOR**2 + 1
     assert asked < found(np.inf)[2]
+
+
+@dataclass
+class Walled(Valley):
+    """Two coordinates that mostly move together; the second one changes nothing beyond its limit of 1."""
+
+    wish: float = 3.0
+
+    @property
+    def prior_weights(self) -> np.ndarray:
+        return np.full(2, 1e-6)
+
+    def limits(self) -> tuple[np.ndarray, np.ndarray]:
+        return np.array([-10.0, -1.0]), np.array([10.0, 1.0])
+
+    def paired(self, _: np.ndarray) -> Walled:
+        return self
+
+    def residuals(self, z: np.ndarray) -> np.ndarray:
+        x, y = z[0], min(z[1], 1.0)
+        return np.array([100 * (x - y), y - self.wish])
+
+
+@pytest.mark.parametrize(("wish", "there"), [(3.0, 1.0), (0.5, 0.5)])
+@pytest.mark.parametrize("start", [1.0, 0.2])
+def test_limits_hold_one_coordinate_and_not_the_others(wish: float, there: float, start: float) -> None:
+    best = refit(Walled(wish=wish), np.array([0.0, start]))  # type: ignore[type-var]
+    np.testing.assert_allclose(best.z, there, atol=1e-3)

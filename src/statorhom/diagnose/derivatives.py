@@ -28,7 +28,9 @@ def jacobian(h: AnyHypothesis, z: FloatArray) -> FloatArray:
 
 def difference(h: AnyHypothesis, z: FloatArray, j: int, start: Sequence[Feature]) -> FloatArray:
     """One column of it; `start` are the features that are seen."""
-    for sign in (1.0, -1.0):
+    # beyond its limit a place changes nothing
+    inwards = 1.0 if z[j] + EFFECT_STEP <= h.limits()[1][j] else -1.0
+    for sign in (inwards, -inwards):
         moved = z.copy()
         moved[j] += sign * EFFECT_STEP
         try:

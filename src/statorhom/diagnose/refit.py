@@ -155,7 +155,7 @@ def _polished(hypothesis: _H, z: FloatArray, worth: float = np.inf) -> Refit[_H]
             break
         improved = False
         for _ in range(6):
-            step = -np.linalg.solve(H + damping * np.diag(np.diag(H) + 1e-6), gradient)
+            step = _step(H + damping * np.diag(np.diag(H) + 1e-6), gradient, low - z, high - z)
             step *= min(1.0, LARGEST_STEP / max(float(np.abs(step).max()), 1e-12))
             trial = np.clip(z + step, low, high)
             try:
@@ -177,6 +177,22 @@ def _polished(hypothesis: _H, z: FloatArray, worth: float = np.inf) -> Refit[_H]
         if gain < SETTLED:
             break
     return Refit(hypothesis, z, J, float(residuals @ residuals), objective + hypothesis.missed)
+
+
+def _step(H: FloatArray, gradient: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+    """Where ½ sᵀHs + gᵀs is least: what would leave its limits stays on them, and the others move as it stays."""
+    step, held = np.zeros(len(gradient)), np.zeros(len(gradient), dtype=bool)
+    for _ in range(len(gradient)):
+        free = np.flatnonzero(~held)
+        step[free] = -np.linalg.solve(H[np.ix_(free, free)], gradient[free] + H[free][:, held] @ step[held])
+        out = (step < low) | (step > high)
+        if not out.any():
+            break
+        step[out] = np.clip(step, low, high)[out]
+        held |= out
+        if held.all():
+            break
+    return step
 
 
 def _objective(residuals: FloatArray, z: FloatArray, weights: FloatArray) -> float:
