@@ -137,7 +137,7 @@ def _settled(study: StudyModel, found: Refit[Hypothesis], settings: Settings) ->
         moved = max(abs(np.log(_frequencies(better, materials)[k] / f)) for k, f in before.items())
         if number == 0:
             error = mesh_error(stage.setup, better.ring, materials, settings.density)
-            better = replace(better, error=error)
+            better = better.with_error(error)
         study = study.with_stages((*study.stages[:-1], better))
         found = refit(Hypothesis(study), found.z)
         if number > 0 and moved < SAME_HZ:

@@ -53,7 +53,7 @@ def _sharpened(explanation: Explanation) -> Explanation:
         materials = acted_materials(hypothesis.study, stage, values, actions)
         near = with_reference(stage, materials)
         error = mesh_error(stage.setup, near.ring, materials, stage.density)
-        stages.append(replace(near, error=error))
+        stages.append(near.with_error(error))
     moved = replace(hypothesis, study=hypothesis.study.with_stages(tuple(stages)), held=None)
     again = refitted(moved, r.z)
     if again is None or again.objective > r.objective + WORSE:

@@ -63,6 +63,7 @@ class StageModel:
     _slopes: dict[int, dict[tuple[int, int], np.ndarray]] = field(default_factory=dict, repr=False)
     _joints: dict[tuple[tuple[str, ...], bool], JointBasis] = field(default_factory=dict, repr=False)
     _trained: dict[tuple[str, ...], TrainedBasis] = field(default_factory=dict, repr=False)
+    _corrected: dict[tuple[str, ...], TrainedBasis] = field(default_factory=dict, repr=False)
     _narrow: dict[float, TrainedBasis] = field(default_factory=dict, repr=False)
     held_shapes: dict[str, HeldShapes] = field(default_factory=dict, repr=False)
     sensor_responses: dict[tuple[float, ...], Any] = field(default_factory=dict, repr=False)
@@ -132,7 +133,18 @@ class StageModel:
         return mode_keys(self.solve(self.reference).modes)
 
     def trained(self, trainings: Sequence[Training]) -> TrainedBasis:
-        """The broken basis with what some changes need."""
+        """The broken basis with what some changes need; the named modes at the frequencies that a fine mesh gives."""
+        mark = tuple(sorted(t.key for t in trainings))
+        if mark not in self._corrected:
+            found = self._on_this_mesh(trainings)
+            self._corrected[mark] = found.corrected({key: self.error.factor(key) for key in found.columns})
+        return self._corrected[mark]
+
+    def with_error(self, error: ModelError) -> StageModel:
+        """The same stage with other mesh factors."""
+        return replace(self, error=error, kept_responses={}, sensor_responses={}, _corrected={})
+
+    def _on_this_mesh(self, trainings: Sequence[Training]) -> TrainedBasis:
         mark = tuple(sorted(t.key for t in trainings))
         if mark not in self._trained:
             named = self._named
@@ -149,7 +161,7 @@ class StageModel:
         """
         cut = CUT * highest_hz
         if cut >= self.broken.cut_hz:
-            return self.trained(())
+            return self._on_this_mesh(())
         known = self._narrow.get(highest_hz)
         if known is None:
             basis = replace(self.broken.truncated(cut), highest_hz=highest_hz)
@@ -227,6 +239,7 @@ def with_reference(stage: StageModel, materials: Materials) -> StageModel:
         _slopes={},
         _joints={},
         _trained={},
+        _corrected={},
         _narrow={},
         held_shapes={},
         kept_responses={},

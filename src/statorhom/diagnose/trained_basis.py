@@ -7,7 +7,7 @@ apart. One static response to every example's residual holds most of that; it is
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -35,6 +35,18 @@ class TrainedBasis:
 
     basis: SymmetricBasis
     columns: Mapping[ModeKey, Columns]
+
+    def corrected(self, factors: Mapping[ModeKey, float]) -> TrainedBasis:
+        """With the named modes' frequencies multiplied by mesh factors.
+
+        How far two modes mix is told by how far they are from each other, which a coarse mesh gets wrong.
+        """
+        squares = {i: factors[key] ** 2 for key, c in self.columns.items() for i in c.numbers}
+        basis = self.basis.with_values(squares)
+        columns = {
+            key: replace(c, eigenvalue=c.eigenvalue * factors[key] ** 2) for key, c in self.columns.items()
+        }
+        return TrainedBasis(basis, columns)
 
     def trained(
         self, examples: Sequence[Change], named: Mapping[ModeKey, tuple[Harmonic, float]]

@@ -9,7 +9,7 @@ symmetric stator that is nowhere stiffer than any broken one (`statorhom.model.b
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -33,6 +33,14 @@ from statorhom.model.pitch_parts import pitch_parts
 
 MARGIN = 2.0  # modes reach this much higher than the band
 PROBES = 8  # per problem
+OF_VECTORS = (
+    "waves",
+    "probes",
+    "surface_motion",
+    "places",
+    "values",
+    "probed",
+)  # what a basis knows of its vectors alone
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +103,7 @@ class SymmetricBasis:
     cut_hz : all modes of the symmetric stator up to here are in the basis.
     shift : σ (rad²/s²).
     softest : pieces that may be softened, and the least weight (e,) of each.
+    added : (coordinates,) what is added to the eigenvalues, K + M Φ diag(added) Φᵀ M; None for nothing.
     """
 
     mesh: HalfPitchMesh
@@ -103,6 +112,7 @@ class SymmetricBasis:
     cut_hz: float
     shift: float
     softest: tuple[tuple[Pieces, np.ndarray], ...] = ()
+    added: np.ndarray | None = None
     grams: GramCache = field(default_factory=GramCache, repr=False, compare=False)
     kept_motions: OrderedDict[tuple[int, int], Any] = field(
         default_factory=OrderedDict, init=False, repr=False, compare=False
@@ -162,6 +172,16 @@ class SymmetricBasis:
                 start[sine] = place[sine].stop
             found.append(place)
         return tuple(found)
+
+    def with_values(self, factors: Mapping[int, float]) -> SymmetricBasis:
+        """With the eigenvalues of some coordinates' modes multiplied by factors, as if K were that of a finer mesh."""
+        added = np.zeros(len(self.values))
+        for number, factor in factors.items():
+            added[number] = (factor - 1.0) * self.values[number]
+        found = replace(self, added=added)
+        # the same vectors: their waves, and what was projected on them, serve both
+        found.__dict__.update({name: self.__dict__[name] for name in OF_VECTORS if name in self.__dict__})
+        return found
 
     def truncated(self, cut_hz: float) -> SymmetricBasis:
         """Only the vectors up to a frequency: for signatures, or for a coarser solution."""

@@ -41,7 +41,13 @@ def couple(basis: SymmetricBasis, changes: Sequence[Change]) -> Coupled:
     pieces = tuple(c for c in changes if isinstance(c, PieceChange))
     sigma, rows, products, G, H = basis.shift, own.rows, own.products, own.flexibility, own.inertia
     mixed = rows.T - sigma * products
-    K = np.block([[np.diag(basis.values), mixed], [mixed.T, G - sigma * H]])
+    still = G - sigma * H
+    values = basis.values
+    if basis.added is not None:
+        values = values + basis.added
+        mixed = mixed + basis.added[:, None] * products
+        still = still + products.T @ (basis.added[:, None] * products)
+    K = np.block([[np.diag(values), mixed], [mixed.T, still]])
     M = np.block([[np.eye(len(basis.values)), products], [products.T, H]])
     (zK, zM), (zL, zY) = basis.probed, own.probed
     probe_stiffness, probe_mass = np.hstack([zK, zL - sigma * zY]), np.hstack([zM, zY])
