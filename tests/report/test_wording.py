@@ -2,6 +2,7 @@
 
 import pytest
 
+from statorhom.report.diagnosis.words import place_words
 from statorhom.report.document import plain
 from statorhom.report.wording import (
     constant_formula,
@@ -13,6 +14,7 @@ from statorhom.report.wording import (
     plural,
     rounded,
 )
+from statorhom.results.diagnosis import EffectResult, PlanLocation
 
 
 @pytest.mark.parametrize(
@@ -82,3 +84,20 @@ def test_percent_has_a_sign() -> None:
 
 def test_plural() -> None:
     assert [plural(n, "mode") for n in (0, 1, 2, 11)] == ["no modes", "one mode", "two modes", "11 modes"]
+
+
+def test_a_place_on_a_plan_is_never_known_to_no_millimetre() -> None:
+    location = PlanLocation(
+        x_mm=638.03, x_sd_mm=1.78, y_mm=947.1, y_sd_mm=0.16, place_ambiguity_mm=((638.03, 947.1),)
+    )
+    effect = EffectResult(
+        effect="attached_mass",
+        stage="wing",
+        region=None,
+        test=None,
+        location=location,
+        parameters={},
+        probability=1.0,
+        note=None,
+    )
+    assert place_words(effect) == "at x = 638 ± 3 mm, y = 947 ± 1 mm"

@@ -137,7 +137,7 @@ def _caption(placed: Sequence[EffectResult], row: MapRow | None, around: bool) -
 
 
 def _alt(placed: Sequence[EffectResult], row: MapRow | None) -> str:
-    what = " and ".join(effect_words(e.effect) for e in placed) or "the contradiction"
+    what = " and ".join(dict.fromkeys(effect_words(e.effect) for e in placed)) or "the contradiction"
     return one_line(
         f"where {what} lies on the unrolled stator" + ("" if row is None else f", test {row.test}")
     )

@@ -53,5 +53,5 @@ def plan_figure(effects: Sequence[EffectResult], plan: PlanRow) -> Picture | Non
 
 
 def _alt(placed: Sequence[EffectResult]) -> str:
-    what = " and ".join(effect_words(e.effect) for e in placed)
+    what = " and ".join(dict.fromkeys(effect_words(e.effect) for e in placed))
     return one_line(f"where {what} lies on the body, seen from above")

@@ -20,7 +20,7 @@ def what_section(d: Diagnosis, details: Details) -> Section | None:
     changed = d.verdict != "none" and any(r.before != r.after for r in rows)
     lead = "Each bar is one thing that was measured, and how far the fitted model misses it. "
     if d.verdict == "named":
-        names = " and ".join(effect_words(e.effect) for e in d.effects)
+        names = " and ".join(dict.fromkeys(effect_words(e.effect) for e in d.effects))
         lead += f"Orange without, blue with the {names} in the model: what is missing must take the large misses away."
     elif changed:
         lead += "Orange: the declared model. Blue: with the explanation that fits best, which is not certain."

@@ -116,14 +116,14 @@ def place_words(effect: EffectResult) -> str:
         if also:
             parts[-1] += f" (or, equally possible: {', '.join(also)})"
     if place is not None and place.z_mm is not None and place.z_sd_mm is not None:
-        parts.append(f"{place.z_mm:.0f} ± {Z90 * place.z_sd_mm:.0f} mm above the core’s lower end")
+        parts.append(f"{place.z_mm:.0f} ± {_whole_mm(place.z_sd_mm)} mm above the core’s lower end")
     return ", ".join(parts)
 
 
 def _on_plan(place: PlanLocation) -> str:
     others = [f"({x:.0f}, {y:.0f})" for x, y in place.place_ambiguity_mm[1:]]
     also = f" (or, equally possible: {', '.join(others)} mm)" if others else ""
-    x, y = f"{place.x_mm:.0f} ± {Z90 * place.x_sd_mm:.0f}", f"{place.y_mm:.0f} ± {Z90 * place.y_sd_mm:.0f}"
+    x, y = f"{place.x_mm:.0f} ± {_whole_mm(place.x_sd_mm)}", f"{place.y_mm:.0f} ± {_whole_mm(place.y_sd_mm)}"
     return f"at x = {x} mm, y = {y} mm{also}"
 
 
@@ -160,3 +160,8 @@ def feature_words(row: FeatureRow) -> str:
 
 def _spaced(unit: str) -> str:
     return unit if unit in ("", "°") else f" {unit}"
+
+
+def _whole_mm(sd_mm: float) -> int:
+    """Half of the 90 % interval of a place in whole millimetres, never none."""
+    return max(1, round(Z90 * sd_mm))
