@@ -1,13 +1,15 @@
 """Bounded least squares to the local optimum."""
 
 from dataclasses import dataclass
+from types import SimpleNamespace
+from unittest.mock import MagicMock
 
 import numpy as np
 import pytest
 
 from statorhom.errors import IdentificationError
 from statorhom.identify.parameters import Parameter, ParameterSpace
-from statorhom.identify.polish import polish
+from statorhom.identify.polish import _towards, polish
 from statorhom.identify.problem import FunctionProblem, Problem
 
 
@@ -52,6 +54,16 @@ def test_a_limit_is_reached_and_reported():
     assert optimum.x[0] == problem.space.bounds.upper[0]
     assert list(optimum.at_limit) == [True, False]
     assert optimum.x[1] == pytest.approx(0.2 * 100 / 101, abs=1e-6)
+
+
+def test_rounding_leads_past_no_limit():
+    """0.1 + (0.3 - 0.1) is more than 0.3: a step to a limit is clipped again."""
+    bounds = SimpleNamespace(clip=lambda x: np.minimum(x, 0.3))
+    falling = MagicMock(side_effect=lambda x: float(-x[0]), space=SimpleNamespace(bounds=bounds))
+    x, gain = _towards(falling, np.array([0.1]), -0.1, np.array([0.3]))
+    assert 0.1 + (0.3 - 0.1) > 0.3
+    assert x[0] == 0.3
+    assert gain > 0
 
 
 @dataclass(frozen=True, eq=False)

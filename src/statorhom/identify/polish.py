@@ -118,7 +118,8 @@ def _towards(problem: Problem, x: Array, value: float, target: Array) -> tuple[A
     """Step to `target`, or less far where the true value does not fall; return point and gain."""
     gain = -np.inf
     for fraction in SHORTENED:
-        candidate = x + fraction * (target - x)
+        # rounding may lead past a limit
+        candidate = problem.space.bounds.clip(x + fraction * (target - x))
         gain = max(gain, value - problem(candidate))
         if gain >= 0.0:
             return candidate, gain
