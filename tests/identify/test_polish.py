@@ -57,12 +57,12 @@ def test_a_limit_is_reached_and_reported():
 
 
 def test_rounding_leads_past_no_limit():
-    """0.1 + (0.3 - 0.1) is more than 0.3: a step to a limit is clipped again."""
-    bounds = SimpleNamespace(clip=lambda x: np.minimum(x, 0.3))
+    """0.3 + (0.9 - 0.3) is more than 0.9: a step to a limit is clipped again."""
+    bounds = SimpleNamespace(clip=lambda x: np.minimum(x, 0.9))
     falling = MagicMock(side_effect=lambda x: float(-x[0]), space=SimpleNamespace(bounds=bounds))
-    x, gain = _towards(falling, np.array([0.1]), -0.1, np.array([0.3]))
-    assert 0.1 + (0.3 - 0.1) > 0.3
-    assert x[0] == 0.3
+    x, gain = _towards(falling, np.array([0.3]), -0.3, np.array([0.9]))
+    assert 0.3 + (0.9 - 0.3) > 0.9
+    assert x[0] == 0.9
     assert gain > 0
 
 
