@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
-from small_stators import MATERIALS, stator_mesh
+from small_stage import stage_of
 
 from statorhom.diagnose.broken_response import responses
-from statorhom.diagnose.ring_basis import ring_basis
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.identify.model_error import ModelError
-from statorhom.mesh import uniform
-from statorhom.model.affine import assemble
 from statorhom.model.broken.attachments import footed_lump
 from statorhom.model.broken.change import Change
 from statorhom.model.broken.solve import solve_broken
@@ -24,12 +19,7 @@ PAIR = ((2, 0, 0), (2, 1, 0))
 
 @pytest.fixture(scope="module")
 def stack() -> StageModel:
-    model = assemble(stator_mesh(12))
-    materials = {"lamination": MATERIALS["lamination"]}
-    setup = SimpleNamespace(keys=SimpleNamespace(name="stack", tests=()), index=0)
-    return StageModel(
-        setup, (), ring_basis(model, [materials], TOP, range(5)), materials, ModelError(), uniform(1)
-    )
+    return stage_of(("stack",), TOP)
 
 
 def lump(stage: StageModel, mass: float = 0.02) -> tuple[Change, ...]:

@@ -7,7 +7,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from small_stators import MATERIALS, stator_mesh
+from small_stage import stage_of
+from small_stators import MATERIALS
 
 from statorhom.diagnose.broken_response import responses
 from statorhom.diagnose.dimension_response import _shifts, changed_geometry, dimension_shift, step_of
@@ -85,23 +86,14 @@ def study_in(folder: Path) -> StudyFiles:
     return load_study(folder / "study.toml")
 
 
-def stage_of(kinds: tuple[str, ...]) -> StageModel:
-    model = assemble(stator_mesh(12, kinds))
-    materials = {region: MATERIALS[region] for region in model.mesh.regions}
-    setup = SimpleNamespace(keys=SimpleNamespace(name=kinds[-1], tests=()), index=len(kinds) - 1)
-    return StageModel(
-        setup, (), ring_basis(model, [materials], TOP, range(5)), materials, ModelError(), uniform(1)
-    )
-
-
 @pytest.fixture(scope="module")
 def stack() -> StageModel:
-    return stage_of(("stack",))
+    return stage_of(("stack",), TOP)
 
 
 @pytest.fixture(scope="module")
 def wound() -> StageModel:
-    return stage_of(("stack", "wound"))
+    return stage_of(("stack", "wound"), TOP)
 
 
 def candidate(files: StudyFiles, effect: str, stage: str) -> Candidate:

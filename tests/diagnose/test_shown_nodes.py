@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
-from small_stators import MATERIALS, stator_mesh
+from small_stage import stage_of
 
 from statorhom.diagnose.features import assigned
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
-from statorhom.diagnose.ring_basis import ring_basis
 from statorhom.diagnose.shown_nodes import shown_nodes
 from statorhom.diagnose.stage_model import StageModel
-from statorhom.identify.model_error import ModelError
-from statorhom.mesh import uniform
-from statorhom.model.affine import assemble
 from statorhom.model.broken.change import Change
 from statorhom.model.broken.solve import BrokenModes, solve_broken
 from statorhom.model.broken.variations import gradient, region_stiffness
@@ -31,12 +25,7 @@ PLANES, ANGLES = 9, 24
 
 @pytest.fixture(scope="module")
 def stack() -> StageModel:
-    model = assemble(stator_mesh(12))
-    materials = {"lamination": MATERIALS["lamination"]}
-    setup = SimpleNamespace(keys=SimpleNamespace(name="stack", tests=()), index=0)
-    return StageModel(
-        setup, (), ring_basis(model, [materials], TOP, range(5)), materials, ModelError(), uniform(1)
-    )
+    return stage_of(("stack",), TOP)
 
 
 def uneven(stage: StageModel, slope: float) -> tuple[Change, ...]:

@@ -40,6 +40,22 @@ BEAM_M = (0.24, 0.024, 0.016)
 ALUMINIUM_KG = 2700.0 * 0.24 * 0.024 * 0.016
 
 
+def hits_of_a_plate(folder: Path, material: Material) -> str:
+    """Files of hammer hits on a plate; what a study says of them."""
+    names = write_hits(
+        folder,
+        BlockGeometry("plate", SIZE_M, "truth"),
+        material,
+        hammer_m=(0.012, 0.02, 0.004),
+        response_m=(0.285, 0.015, 0.004),
+        highest_hz=5000.0,
+    )
+    listed = ", ".join(f'"{name}"' for name in names)
+    return (
+        f'hits = [{listed}]\nhammer_mm = [12.0, 20.0, 4.0]\nresponse_mm = [285.0, 15.0, 4.0]\ndirection = "z"'
+    )
+
+
 def engineering(region: RegionResult) -> dict[str, Constant]:
     return dict(region.engineering)
 
@@ -111,18 +127,7 @@ def test_all_nine_constants_of_a_plate_from_fifteen_noisy_modes(tmp_path: Path, 
 @pytest.mark.slow
 def test_from_raw_hits_to_the_material_in_one_command(tmp_path: Path) -> None:
     material = Material(ALUMINIUM.hooke(), 2700.0)
-    names = write_hits(
-        tmp_path,
-        BlockGeometry("plate", SIZE_M, "truth"),
-        material,
-        hammer_m=(0.012, 0.02, 0.004),
-        response_m=(0.285, 0.015, 0.004),
-        highest_hz=5000.0,
-    )
-    listed = ", ".join(f'"{name}"' for name in names)
-    test = (
-        f'hits = [{listed}]\nhammer_mm = [12.0, 20.0, 4.0]\nresponse_mm = [285.0, 15.0, 4.0]\ndirection = "z"'
-    )
+    test = hits_of_a_plate(tmp_path, material)
     mass = 2700.0 * SIZE_M[0] * SIZE_M[1] * SIZE_M[2]
     path = write_study(tmp_path, PLATE, study_text("plate", "isotropic", mass, test, "evaluations = 400"))
     stage = Study.load(path).run(tmp_path / "out", jobs=2).stages[0]
@@ -136,18 +141,7 @@ def test_from_raw_hits_to_the_material_in_one_command(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_from_raw_hits_to_an_orthotropic_material_in_one_command(tmp_path: Path) -> None:
-    names = write_hits(
-        tmp_path,
-        BlockGeometry("plate", SIZE_M, "truth"),
-        Material(LAMINATE.hooke(), 1890.0),
-        hammer_m=(0.012, 0.02, 0.004),
-        response_m=(0.285, 0.015, 0.004),
-        highest_hz=5000.0,
-    )
-    listed = ", ".join(f'"{name}"' for name in names)
-    test = (
-        f'hits = [{listed}]\nhammer_mm = [12.0, 20.0, 4.0]\nresponse_mm = [285.0, 15.0, 4.0]\ndirection = "z"'
-    )
+    test = hits_of_a_plate(tmp_path, Material(LAMINATE.hooke(), 1890.0))
     text = study_text("plate", "orthotropic", 1890.0 * 2.4e-4, test, "evaluations = 400")
     out = tmp_path / "out"
     done = statorhom("run", write_study(tmp_path, PLATE, text), "--out", out, "--jobs", 2)

@@ -22,11 +22,12 @@ from statorhom.model.assembly import (
     BlockPattern,
     block_pattern,
     chunks,
+    element_geometry,
     mass_blocks,
     node_blocks,
     stiffness_blocks,
 )
-from statorhom.model.element import gauss_table
+from statorhom.model.element import ORDER, gauss_table
 from statorhom.model.frames import FRAMES
 from statorhom.model.point_masses import lump_mass
 from statorhom.study.wing_file import LUMPS
@@ -179,12 +180,14 @@ def _region_terms(
     mass = []
     volume = 0.0
     frame = FRAMES[mesh.axes]
-    for numbers, geometry in chunks(mesh, region, frame, mesh.quadrature):
-        for term, matrices in zip(
-            stiffness, stiffness_blocks(geometry, mesh.cell_axes(numbers)), strict=True
-        ):
+    for numbers, geometry in chunks(mesh, region, frame):
+        elastic = geometry
+        if mesh.quadrature != ORDER:
+            elastic = element_geometry(
+                mesh.nodes[mesh.elements[numbers]], gauss_table(mesh.quadrature), frame
+            )
+        for term, matrices in zip(stiffness, stiffness_blocks(elastic, mesh.cell_axes(numbers)), strict=True):
             term.append(node_blocks(matrices))
-    for _, geometry in chunks(mesh, region, frame):
         mass.append(node_blocks(mass_blocks(geometry, gauss_table().values)))
         volume += float(geometry.volume.sum())
     terms = np.stack([gather.summed(np.concatenate(term)) for term in stiffness])

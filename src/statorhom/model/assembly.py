@@ -16,7 +16,7 @@ import scipy.sparse as sp
 from statorhom.errors import SolverError
 from statorhom.materials.rotation import stress_rotation
 from statorhom.mesh.hex_mesh import HexMesh
-from statorhom.model.element import ShapeTable, gauss_table
+from statorhom.model.element import ORDER, ShapeTable, gauss_table
 from statorhom.model.frames import Frame, cylindrical
 
 # the nine independent entries of an orthotropic Hooke's matrix, as (row, column) pairs
@@ -216,7 +216,7 @@ def node_blocks(matrices: np.ndarray) -> np.ndarray:
 
 
 def chunks(
-    mesh: HexMesh, region: int, frame: Frame = cylindrical, order: int = 5
+    mesh: HexMesh, region: int, frame: Frame = cylindrical, order: int = ORDER
 ) -> Iterator[tuple[np.ndarray, ElementGeometry]]:
     """Element numbers and geometry of a region, a chunk at a time, at Gauss points of an order (`gauss_table`)."""
     numbers = np.flatnonzero(mesh.region == region)

@@ -15,6 +15,7 @@ _CORNERS = np.array(
 )
 _EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 5), (2, 6), (3, 7), (4, 5), (5, 6), (6, 7), (7, 4)]
 REFERENCE_NODES = np.vstack([_CORNERS, [(_CORNERS[a] + _CORNERS[b]) / 2 for a, b in _EDGES]])
+ORDER = 5  # of the polynomials that Gauss points integrate exactly, unless a mesh asks for another one
 
 
 @dataclass(frozen=True)
@@ -56,13 +57,13 @@ def shape_values(points: np.ndarray) -> np.ndarray:
 
 
 @cache
-def gauss_table(order: int = 5) -> ShapeTable:
+def gauss_table(order: int = ORDER) -> ShapeTable:
     """Table on the Gauss points that integrate polynomials of `order` exactly (5: 3 × 3 × 3 points)."""
     points, weights = get_quadrature(ElementHexS2, order)
     return _table(points.T, weights)
 
 
-def layer_table(axis: int, low: float, high: float, order: int = 5) -> ShapeTable:
+def layer_table(axis: int, low: float, high: float, order: int = ORDER) -> ShapeTable:
     """Table on the Gauss points of a layer of the reference cube, between two coordinates of one axis."""
     points, weights = get_quadrature(ElementHexS2, order)
     within = points.T.copy()
