@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +19,8 @@ from statorhom.identify.optimizers.workers import Tick, Workers
 from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.basis_store import BasisStore, basis_key
+from statorhom.model.common_snapshots import Snapshots, common_snapshots
+from statorhom.model.material_span import MaterialPoint
 from statorhom.model.reduced import MaterialBox, ReducedHarmonic, material_box, reduce_harmonic
 from statorhom.model.reduced_stator import ReducedStator, reduced_stator
 from statorhom.model.space import Space
@@ -35,6 +38,7 @@ class BasisPlan:
     ----------
     training : materials among which they pick their snapshots, a power of two; of a local basis around each optimum.
     cells : into which the materials are divided at most; more make an evaluation faster and the bases dearer.
+    common : of a cell's materials that all harmonics are solved at together; 0 for bodies that have no harmonics.
     tolerance : certified relative frequency error to stay below.
     folded : see `material_span`.
     room_radius : of the rooms into which cells are divided again; infinite for none. What they save in an evaluation
@@ -43,6 +47,7 @@ class BasisPlan:
 
     training: int
     cells: int
+    common: int
     tolerance: float
     folded: bool = False
     room_radius: float = np.inf
@@ -50,14 +55,17 @@ class BasisPlan:
 
 # at the result: a bound, mostly far above the error; and the mesh factors compare the basis with the full model there
 TOLERANCE = 1e-3
-SEARCH = BasisPlan(64, 4, 1e-2)
+SEARCH = BasisPlan(64, 4, 6, 1e-2)
 # plates and wings have few problems and large ones: what counts are full solves, and a single cell needs the fewest
-SEARCH_OF_BLOCKS = BasisPlan(64, 1, 1e-2, folded=True)
-LOCAL = BasisPlan(16, 4, TOLERANCE)
-LOCAL_OF_BLOCKS = BasisPlan(16, 1, TOLERANCE, folded=True)
-SHARED = BasisPlan(512, 12, 3e-4, room_radius=0.35)
+SEARCH_OF_BLOCKS = BasisPlan(64, 1, 0, 1e-2, folded=True)
+LOCAL = BasisPlan(16, 4, 5, TOLERANCE)
+LOCAL_OF_BLOCKS = BasisPlan(16, 1, 0, TOLERANCE, folded=True)
+SHARED = BasisPlan(512, 12, 6, 3e-4, room_radius=0.35)
 
-BasisTask = tuple[AffineModel[PartMesh], Space, MaterialBox, float, float, BasisStore | None]
+SnapshotTask = tuple[Any, Any, Sequence[MaterialPoint], Sequence[str], float, int]
+BasisTask = tuple[
+    AffineModel[PartMesh], Space, MaterialBox, float, float, BasisStore | None, str, tuple[Snapshots, ...]
+]
 
 
 def reduce_stage(
@@ -91,12 +99,52 @@ def reduce_stage(
         training, model.mesh.regions, most=plan.cells, room_radius=plan.room_radius, folded=plan.folded
     )
     band = rounded_up(BAND * highest_hz, step)
+    keys = [basis_key(model.mesh, space, box, band, plan.tolerance) for space in spaces]
+    kept = {} if store is None else _kept(store, keys, spaces, box, band)
     # another process may want the same bases at the same time: in different orders, each finds what the other has built
-    order = np.random.default_rng().permutation(len(spaces))
-    tasks = [(model, spaces[i], box, band, plan.tolerance, store) for i in order]
-    found = workers.map(_reduce, tasks, progress=progress)
-    problems = [found[place] for place in np.argsort(order)]
+    missing = np.random.default_rng().permutation([i for i in range(len(spaces)) if i not in kept]).tolist()
+    known = _common_snapshots(model, [spaces[i] for i in missing], box, band, plan.common, workers)
+    tasks = [
+        (model, spaces[i], box, band, plan.tolerance, store, keys[i], tuple(cell[place] for cell in known))
+        for place, i in enumerate(missing)
+    ]
+    if progress is not None and kept:
+        progress(len(kept))
+    built = workers.map(_reduce, tasks, progress=None if progress is None else _after(len(kept), progress))
+    found = kept | dict(zip(missing, built, strict=True))
+    problems = [found[i] for i in range(len(spaces))]
     return reduced_stator(model, box, problems, LOOK * highest_hz, typical)
+
+
+def _kept(
+    store: BasisStore, keys: Sequence[str], spaces: Sequence[Space], box: MaterialBox, highest_hz: float
+) -> dict[int, ReducedHarmonic]:
+    """Number → reduced harmonic of all that a store has."""
+    read = [store.read(key, space, box, highest_hz) for key, space in zip(keys, spaces, strict=True)]
+    return {i: found for i, found in enumerate(read) if found is not None}
+
+
+def _after(count: int, progress: Progress) -> Progress:
+    return lambda done: progress(count + done)
+
+
+def _common_snapshots(
+    model: AffineModel[PartMesh],
+    spaces: Sequence[Space],
+    box: MaterialBox,
+    highest_hz: float,
+    count: int,
+    workers: Workers,
+) -> list[tuple[Snapshots, ...]]:
+    """Per cell and problem the modes at a few materials; nothing where a plan wants none."""
+    if count == 0 or not spaces:
+        return []
+    tasks = [(model, spaces, cell, box.span.regions, highest_hz, count) for cell in box.training]
+    return workers.map(_snapshots, tasks)
+
+
+def _snapshots(task: SnapshotTask, _tick: Tick) -> tuple[Snapshots, ...]:
+    return common_snapshots(*task)
 
 
 def rounded_up(value: float, step: float) -> float:
@@ -105,11 +153,10 @@ def rounded_up(value: float, step: float) -> float:
 
 
 def _reduce(task: BasisTask, tick: Tick) -> ReducedHarmonic:
-    model, space, box, highest_hz, tolerance, store = task
-    key = basis_key(model.mesh, space, box, highest_hz, tolerance)
+    model, space, box, highest_hz, tolerance, store, key, known = task
     reduced = None if store is None else store.read(key, space, box, highest_hz)
     if reduced is None:
-        reduced = reduce_harmonic(model, space, box, highest_hz, tolerance)
+        reduced = reduce_harmonic(model, space, box, highest_hz, tolerance, known=known)
         if store is not None:
             store.write(key, reduced)
     tick()

@@ -4,21 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from statorhom.model.back_ends.sturdy import sturdy
 from statorhom.model.basis_compression import compression
+from statorhom.model.common_snapshots import Snapshots
 from statorhom.model.eigen import factorize, modes_below
 from statorhom.model.harmonic_terms import HarmonicTerms
-from statorhom.model.local_basis import LocalBasis, RoomBasis, norm_shift
+from statorhom.model.local_basis import BEYOND, LocalBasis, RoomBasis, norm_shift
 from statorhom.model.material_cells import stiffness_ratio
 from statorhom.model.material_span import MaterialPoint
 from statorhom.model.reduced_space import ReducedSpace, largest_deviation, symmetric
 from statorhom.model.residual_norm import residual_norm
 from statorhom.model.space import MIRROR
 
-BEYOND = 1  # modes above the band in every snapshot: the bounds need to know what comes next
+SOLVED = 1e-6  # relative tolerance of a snapshot's eigenvalues: it shows a direction, nobody reads its digits
 DROP = 0.2  # of the tolerance: the energy below which a new direction may be left out
 BUILT = 0.6  # of the tolerance: what the greedy basis meets before it is compressed to the tolerance
 AT_ONCE = 16  # certificates that are computed side by side
@@ -32,6 +34,7 @@ def local_basis(
     highest_hz: float,
     tolerance: float,
     most: int,
+    known: Snapshots,
 ) -> LocalBasis:
     """Build the basis of a cell.
 
@@ -43,12 +46,13 @@ def local_basis(
     highest_hz : upper end of the band in which modes are to be exact.
     tolerance : certified relative frequency error to stay below.
     most : largest number of snapshots.
+    known : modes at some of the training materials.
     """
-    builder = _Builder(terms, training, highest_hz, tolerance)
+    builder = _Builder(terms, training, highest_hz, tolerance, known)
     builder.add_snapshot(0)
     errors = np.full(len(training), np.inf)
     for _ in range(most - 1):
-        worst = builder.worst(errors)
+        worst = builder.known_first(errors, builder.worst(errors))
         if errors[worst] <= BUILT * tolerance:
             # a certificate does not see a mode that the basis misses altogether; the full model does
             worst = int(np.argmin(builder.ratios))
@@ -68,6 +72,7 @@ class _Builder:
         training: Sequence[MaterialPoint],
         highest_hz: float,
         tolerance: float,
+        known: Snapshots,
     ) -> None:
         self.terms, self.training = terms, training
         self.highest_hz, self.tolerance = highest_hz, tolerance
@@ -86,6 +91,7 @@ class _Builder:
             np.empty((count, 0, 0)), np.empty((count, 0, count, 0)), terms.span.size, top, shift
         )
         self.expected = 8
+        self.known = known
         self.solved: dict[int, tuple[np.ndarray, np.ndarray]] = {}  # the last full solution
 
     def true_error(self, number: int) -> float:
@@ -118,11 +124,14 @@ class _Builder:
         self.space = replace(self.space, projected=symmetric(self.basis.T @ self.images), gram=gram)
 
     def _full_modes(self, number: int) -> tuple[np.ndarray, np.ndarray]:
+        if number in self.known:
+            return self.known[number]
         if number not in self.solved:
             K, M = self.terms.matrices(self.training[number])
             # the reference's own shifted matrix is factorized already
             back_end = self.factorize if number else lambda _: self.solve
-            found = modes_below(K, M, self.highest_hz, self.expected, beyond=BEYOND, back_end=back_end)
+            wanted: dict[str, Any] = {"tolerance": SOLVED, "beyond": BEYOND, "back_end": back_end}
+            found = modes_below(K, M, self.highest_hz, self.expected, **wanted)
             self.expected = len(found[0]) + 2
             self.solved = {number: found}
         return self.solved[number]
@@ -152,6 +161,15 @@ class _Builder:
             ):
                 break
         return int(errors.argmax())
+
+    def known_first(self, errors: np.ndarray, worst: int) -> int:
+        """Where the error is largest: among the materials of known modes, while one is above the tolerance."""
+        if not self.known:
+            return worst
+        known = np.array(list(self.known))
+        errors[known] = self.certified_errors(known)
+        best = int(known[errors[known].argmax()])
+        return best if errors[best] > BUILT * self.tolerance else worst
 
     def certified_errors(self, numbers: np.ndarray) -> np.ndarray:
         """Certified errors at some training materials."""

@@ -23,7 +23,7 @@ from statorhom.model.residual_norm import ResidualNorm
 from statorhom.model.space import Space
 from statorhom.study.atomic import write_bytes
 
-FORMAT = 3  # raised when the same inputs shall give another basis
+FORMAT = 4  # raised when the same inputs shall give another basis
 _DAMAGED = (
     OSError,
     ValueError,

@@ -10,6 +10,7 @@ from statorhom.model.eigen import SHIFT
 from statorhom.model.residual_norm import ResidualNorm
 
 SPARE = 2  # Ritz values above the band that may serve as barriers
+BEYOND = 1  # modes above the band in every snapshot: the bounds need to know what comes next
 
 
 @dataclass(frozen=True)

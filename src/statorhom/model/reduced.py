@@ -19,6 +19,7 @@ from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.basis_greedy import local_basis
 from statorhom.model.blas_threads import one_blas_thread
+from statorhom.model.common_snapshots import Snapshots
 from statorhom.model.harmonic_terms import harmonic_terms
 from statorhom.model.local_basis import LocalBasis
 from statorhom.model.material_cells import Division, MaterialCells, divided, features
@@ -107,6 +108,7 @@ def reduce_harmonic(
     highest_hz: float,
     tolerance: float = 3e-4,
     most: int = 60,
+    known: Sequence[Snapshots] = (),
 ) -> ReducedHarmonic:
     """Build the reduced bases of a harmonic.
 
@@ -118,12 +120,14 @@ def reduce_harmonic(
     highest_hz : modes up to here are to be exact.
     tolerance : certified relative frequency error to stay below at all training materials.
     most : largest number of snapshots of a cell.
+    known : per cell the modes that are known already; may be empty.
     """
+    known = known or ({},) * len(box.training)
     with one_blas_thread():
         terms = harmonic_terms(model, harmonic, box.span)
         cells = tuple(
-            local_basis(terms, part, rooms.members, highest_hz, tolerance, most)
-            for part, rooms in zip(box.training, box.rooms, strict=True)
+            local_basis(terms, part, rooms.members, highest_hz, tolerance, most, snapshots)
+            for part, rooms, snapshots in zip(box.training, box.rooms, known, strict=True)
         )
     for cell in cells:
         for array in cell.arrays:
