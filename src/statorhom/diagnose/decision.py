@@ -31,6 +31,7 @@ class Evidence:
     Parameters
     ----------
     p_value : of the scan's maximum.
+    unpaired : whether the declared model lacks many modes that were measured: what has no partner, no scan sees.
     over_nothing, over_others : log evidence of the best explanation over "nothing" and over the next one.
     held_out : errors on modes that were not seen; None where there were too few.
     adequacy : posterior-predictive p of the best explanation, one gross error aside.
@@ -40,6 +41,7 @@ class Evidence:
     """
 
     p_value: float
+    unpaired: bool
     over_nothing: float
     over_others: float
     held_out: HeldOut | None
@@ -49,10 +51,15 @@ class Evidence:
     stability: float
 
     @property
+    def by_chance(self) -> bool:
+        """Rule 1: what the declared model misses may be chance."""
+        return self.p_value >= MAX_T_P and not self.unpaired
+
+    @property
     def detected(self) -> bool:
         """Rule 1, and the first half of rule 2: something is missing."""
         least = FAR_OVER_NOTHING if self.nothing_adequacy > AS_IT_SHOULD else OVER_NOTHING
-        return self.p_value < MAX_T_P and self.over_nothing > least
+        return not self.by_chance and self.over_nothing > least
 
     @property
     def predicts(self) -> bool:
@@ -80,7 +87,7 @@ class Evidence:
 def decide(evidence: Evidence) -> Verdict:
     """The verdict; several effects are named as alternatives only where there are several."""
     if not evidence.detected:
-        return "none" if evidence.nothing_adequacy > ADEQUATE or evidence.p_value >= MAX_T_P else "unknown"
+        return "none" if evidence.nothing_adequacy > ADEQUATE or evidence.by_chance else "unknown"
     if not evidence.sound or not (evidence.predicts or evidence.undecided):
         return "unknown" if evidence.nothing_adequacy <= ADEQUATE else "none"
     if not (evidence.predicts or evidence.evident):

@@ -28,6 +28,7 @@ from statorhom.diagnose.explanations import (
     nothing,
 )
 from statorhom.diagnose.gross_rows import without_gross_rows
+from statorhom.diagnose.lacking_modes import lacks_modes
 from statorhom.diagnose.held_out import HeldOut, held_out
 from statorhom.diagnose.held_out_name import held_out_names, renames_alone
 from statorhom.diagnose.measured import MeasuredTest
@@ -129,7 +130,7 @@ def _find(
     progress(1)
     progress = announce("explanations", 1)
     discrete = [c for c in candidates if not c.parameters]
-    if signatures.p_value < MAX_T_P:
+    if signatures.p_value < MAX_T_P or lacks_modes(base.free):
         found = single_effects(base.free, signatures, discrete, counts)
         if found and found[0].adequacy_but_one < ADEQUATE:
             found = approach.refined(found, base.valleys, counts)
@@ -186,6 +187,7 @@ def _evidence(
     common = found[0] if found else best
     return Evidence(
         p_value=p_value,
+        unpaired=lacks_modes(base.free),
         over_nothing=over,
         over_others=float(own - next_best) if np.isfinite(next_best) else float("inf"),
         held_out=unseen,

@@ -86,7 +86,7 @@ def strongest(modes: Sequence[NamedMode], paired: set[int]) -> list[int]:
             for j, other in enumerate(modes)
             if j != i
             and size[j] > size[i]
-            and _close(one, other)
+            and _may_be_images(one, other)
             and (one.order is None or other.order == one.order or one.order > 6)
         ]
         if i in paired or not close:
@@ -98,10 +98,21 @@ def doubtful_axial(modes: Sequence[NamedMode], kept: Sequence[int]) -> set[int]:
     """Numbers of those whose images have other node planes: each image has the planes at which the pole is its own."""
 
     def is_image(one: NamedMode, other: NamedMode) -> bool:
-        return _close(one, other) and other.order == one.order and other.axial != one.axial
+        return _may_be_images(one, other) and other.order == one.order and other.axial != one.axial
 
     rest = [mode for j, mode in enumerate(modes) if j not in kept]
     return {i for i in kept if modes[i].order is not None and any(is_image(modes[i], m) for m in rest)}
+
+
+def _may_be_images(one: NamedMode, other: NamedMode) -> bool:
+    """Whether two poles may be one mode's, seen where a sensor moves it by more and by less.
+
+    A sensor moves a mode alike on both sides of the middle, so that images are symmetric along the axis where their
+    mode is: (2, 0) and (2, 1) of a short core lie as close together, and are two modes.
+    """
+    if one.axial is not None and other.axial is not None and (one.axial - other.axial) % 2:
+        return False
+    return _close(one, other)
 
 
 def _close(one: NamedMode, other: NamedMode) -> bool:
