@@ -18,6 +18,7 @@ GROUPS = tuple(("test", (r, 0, 0)) for r in range(2, 8))
 FALLS = HeldOut(GROUPS, (2.0, 3.0, 1.5, 2.5, 2.0, 3.0), (0.2, 0.3, 0.1, 0.2, 0.3, 0.2), (0.1,) * 6)
 GOOD = Evidence(
     p_value=1e-3,
+    unpaired=False,
     over_nothing=40.0,
     over_others=12.0,
     held_out=FALLS,
@@ -115,3 +116,8 @@ def test_a_dimension_within_its_tolerance_was_not_mistyped(value: float, within:
     hypothesis: Any = SimpleNamespace(effect_values=lambda _: [{"value": value}])
     refit: Any = SimpleNamespace(hypothesis=hypothesis, z=None)
     assert within_bounds(Explanation((candidate,), refit, 0.0)) is within
+
+
+def test_many_modes_without_a_partner_are_no_accident_whatever_the_scan_says() -> None:
+    assert decide(replace(GOOD, p_value=0.7, unpaired=True)) == "named"
+    assert decide(replace(GOOD, p_value=0.7, unpaired=True, over_nothing=1.0)) == "unknown"

@@ -98,3 +98,23 @@ def test_images_do_not_hide_the_mode_s_own_pole_but_neighbours_do() -> None:
     assert stands_off(MODES, 1, [1, 5])
     images = (*MODES[:3], mode(3203.3, 3, 3, 4.0), *MODES[4:])
     assert stands_off(images, 1, [1, 5])
+
+
+def test_poles_that_all_lie_far_on_one_side_are_a_neighbours() -> None:
+    heights, moved, sd = shifts(SD)
+    assert _by_plane("1", heights, moved + 0.02, sd, LOSS) is None
+
+
+def test_a_modes_own_pole_may_be_that_of_one_plane() -> None:
+    heights, moved, sd = shifts(SD)
+    found = _by_plane("1", heights, moved + 5e-4, sd, LOSS)
+    assert found is not None
+    assert found.mean == pytest.approx(5e-4, abs=1e-5)
+
+
+def test_a_short_cores_two_families_of_one_order_are_no_images() -> None:
+    """They lie within a percent of each other, the one symmetric along the axis and the other not."""
+    modes = (mode(1514.5, 2, 0, 4.0), mode(1520.0, 2, 1, 5.0))
+    assert strongest(modes, set()) == [0, 1]
+    assert doubtful_axial(modes, [0, 1]) == set()
+    assert not stands_off(modes, 1, [0, 1])

@@ -28,9 +28,9 @@ from statorhom.diagnose.explanations import (
     nothing,
 )
 from statorhom.diagnose.gross_rows import without_gross_rows
-from statorhom.diagnose.lacking_modes import lacks_modes
 from statorhom.diagnose.held_out import HeldOut, held_out
 from statorhom.diagnose.held_out_name import held_out_names, renames_alone
+from statorhom.diagnose.lacking_modes import lacks_modes
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.next_measurement import Choice
 from statorhom.diagnose.one_line_errors import one_line_errors

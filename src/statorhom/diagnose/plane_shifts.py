@@ -20,6 +20,9 @@ LEAST_SD = 5e-6
 # the points of a plane may differ by so many standard deviations, or by that part of what the planes differ
 CONTRARY, CONTRARY_PART = 8.0, 0.1
 LARGEST = 0.03  # shifts beyond are of another mode
+# half-power bandwidths beyond their spread by which all planes' poles may lie on one side of the mode's own: farther
+# off they are a neighbour's
+FOREIGN = 0.5
 
 
 def plane_shifts(measured: MeasuredModes) -> tuple[PlaneShifts, ...]:
@@ -172,4 +175,6 @@ def _by_plane(
     if np.median(contrary) > CONTRARY and np.median(scatters) > CONTRARY_PART * np.ptp(means):
         return None
     s, d = np.array(means), np.array(deviations)
+    if np.abs(s).min() > np.ptp(s) + FOREIGN * loss:
+        return None
     return PlaneShifts(label, np.array(planes), s - float(s.mean()), d, float(s.mean()))

@@ -1,0 +1,28 @@
+"""Modes that were measured and that the declared model has nowhere near."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from statorhom.diagnose.features import LOST, LOST_UNNAMED, Feature
+from statorhom.diagnose.lacking_modes import lacks_modes
+
+
+def refit(paired: int, named: int, unnamed: int) -> Any:
+    features = [Feature("frequency", "t", (2, i, 0), 7.0, 7.0, 1e-3) for i in range(paired)]
+    features += [Feature("split", "t", (2, i, 0), 0.0, LOST, 1.0, lost=True) for i in range(5)]
+    features += [Feature("frequency", "t", None, LOST, 0.0, 1.0, lost=True)] * named
+    features += [Feature("frequency", "t", None, LOST_UNNAMED, 0.0, 1.0, lost=True)] * unnamed
+    return SimpleNamespace(hypothesis=SimpleNamespace(features=lambda _z: features), z=np.zeros(1))
+
+
+@pytest.mark.parametrize(
+    ("paired", "named", "unnamed", "lacking"),
+    [(6, 5, 0, True), (6, 2, 0, False), (6, 0, 9, False), (30, 4, 0, False), (0, 3, 0, True)],
+)
+def test_as_many_named_modes_without_a_partner_as_no_accident_leaves(paired, named, unnamed, lacking) -> None:
+    assert lacks_modes(refit(paired, named, unnamed)) is lacking
