@@ -124,3 +124,20 @@ def test_noise_may_hide_the_node_planes_but_not_invent_them():
 def test_bad_input_is_refused(radial, z, message):
     with pytest.raises(IdentificationError, match=message):
         name_shape(radial, equidistant(12), z)
+
+
+@pytest.mark.parametrize(
+    ("amplitudes", "count"),
+    [
+        (
+            (0.38, -0.03, -0.03, 0.39),
+            None,
+        ),  # a mode (2, 2) whose middle hardly moves, or (2, 0) between nodes
+        ((0.38, -0.01, -0.01, 0.39), 0),  # as faint as the noise
+        ((0.38, 0.03, 0.03, 0.39), 0),
+        ((0.38, -0.03, 0.03, -0.39), None),
+        ((0.38, 0.03, -0.03, -0.39), 1),
+    ],
+)
+def test_a_faint_plane_leaves_the_count_open_where_it_matters(amplitudes, count):
+    assert measured_node_planes(amplitudes, (0.0, 0.03, 0.07, 0.1), noise=0.005) == count

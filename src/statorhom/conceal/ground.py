@@ -116,8 +116,9 @@ def stage_ground(
     joint = None
     if stage.contact is not None:
         law = stage.contact
-        mesh = split(mesh, (law.region,))
-        joint = contact(mesh, (law.region,), law.normal, law.tangential)
+        regions = tuple(region for region in law.regions if region in mesh.regions)
+        mesh = split(mesh, regions)
+        joint = contact(mesh, regions, law.normal, law.tangential)
     model = assemble(mesh)
     materials = {region: stage.materials[region].material for region in mesh.regions}
     elliptic = _elliptic_hz(problem_at(model, materials), joint)

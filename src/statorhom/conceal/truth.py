@@ -113,9 +113,9 @@ class TrueTest:
 
 @dataclass(frozen=True)
 class ContactLaw:
-    """A joint of zero thickness around a region; stiffness per area (N/m³)."""
+    """A joint of zero thickness around regions that hang together; stiffness per area (N/m³)."""
 
-    region: str
+    regions: tuple[str, ...]
     normal: float
     tangential: float
 

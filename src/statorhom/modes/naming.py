@@ -146,7 +146,7 @@ def measured_node_planes(amplitudes: npt.ArrayLike, z_m: npt.ArrayLike, *, noise
     """Sign changes of an order's amplitude along the axis.
 
     Planes below a tenth of the largest amplitude, or below three times the noise, lie near a node and
-    carry no sign.
+    carry no sign. A plane between the two that would change the count leaves it open.
 
     Parameters
     ----------
@@ -158,11 +158,15 @@ def measured_node_planes(amplitudes: npt.ArrayLike, z_m: npt.ArrayLike, *, noise
     Returns
     -------
     int or None
-        None where fewer than two planes carry a sign: the node planes cannot be told.
+        None where the node planes cannot be told: fewer than two planes carry a sign, or a faint one matters.
     """
     along = np.asarray(amplitudes, dtype=float)[np.argsort(z_m, kind="stable"), None]
     least = _NOISE_FACTOR * noise
-    return int(node_planes(along, least)[0]) if seen_planes(along, least).sum() >= 2 else None
+    if seen_planes(along, least).sum() < 2:
+        return None
+    count = int(node_planes(along, least)[0])
+    faint = along[np.abs(along[:, 0]) > least, 0]
+    return count if noise == 0.0 or count == np.count_nonzero(np.diff(np.sign(faint))) else None
 
 
 def order_noise(spectrum: OrderSpectrum, order: int) -> float:

@@ -28,12 +28,12 @@ def _apply(place: Place, values: Mapping[str, float], rng: np.random.Generator) 
     middle, width = np.deg2rad(values["angle_deg"]), np.deg2rad(values["arc_deg"])
     lost = LostContact(middle - width / 2, middle + width / 2, values["contact_ratio"])
     case = place.case.with_stage(
-        place.stage, contact=ContactLaw("winding", INTACT, INTACT), breaks=(*stage.breaks, lost)
+        place.stage, contact=ContactLaw(("winding", "overhang"), INTACT, INTACT), breaks=(*stage.breaks, lost)
     )
     parameters = {
         "arc_deg": values["arc_deg"],
         "contact_ratio": values["contact_ratio"],
-        "note": "zero-thickness contact in the slots, 3e13 N/m3 where intact",
+        "note": "zero-thickness contact of winding and core, 3e13 N/m3 where intact",
     }
     finding = Finding("interface_debond", stage.keys.name, parameters, angle_deg=values["angle_deg"])
     return case.with_finding(finding)

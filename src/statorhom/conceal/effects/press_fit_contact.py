@@ -21,7 +21,7 @@ def _parameters(place: Place) -> tuple[Drawn, ...]:
 def _apply(place: Place, values: Mapping[str, float], rng: np.random.Generator) -> Case:
     del rng
     normal = values["contact_stiffness_n_per_m3"]
-    law = ContactLaw("frame", normal, values["tangential_share"] * normal)
+    law = ContactLaw(("frame",), normal, values["tangential_share"] * normal)
     parameters = {"contact_stiffness_n_per_m3": normal, "tangential_share": values["tangential_share"]}
     name = place.true_stage.keys.name
     return place.case.with_stage(place.stage, contact=law).with_finding(
