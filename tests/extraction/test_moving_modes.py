@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from statorhom.extraction import extract
+from statorhom.extraction.extraction import ExtractedMode
 from statorhom.extraction.moving_modes import most_move
 from statorhom.recordings.frf_set import FrfSet
 from synthetic_frfs import frf_set, ring_points, ring_shape
@@ -70,3 +71,60 @@ def test_a_promise_from_afar_is_dropped_where_the_windows_do_not_keep_it() -> No
     assert not most_move([False] * 4)
     assert most_move([True, False, False, True])
     assert not most_move([True, False, False, False])
+
+
+def under_a_sensor(relative_split: float, relative_shift: float) -> FrfSet:
+    """Two doublets of a core under a sensor that roves over three planes, each FRF as its own mass leaves it.
+
+    A mass m at a point makes H / (1 - ω² m H_pp) of the receptance H there (Sherman and Morrison 1950).
+    """
+    points = ring_points(10, 4)
+    references = [1, 32]
+    shapes = [ring_shape(points, r, a + half, n) for r, a, n, half in family((2, 0.2, 1), (3, 0.1, 1))]
+    poles = [(f * (1 + s), 0.006) for f in (1000.0, 1500.0) for s in (0.0, relative_split)]
+    squared = (2 * np.pi * LINES) ** 2
+    loaded = []
+    for number, shape in enumerate(zip(*shapes, strict=True)):
+        curves = [1 / ((2 * np.pi * f) ** 2 * (1 + 1j * loss) - squared) for f, loss in poles]
+        own = sum(phi**2 * curve for phi, curve in zip(shape, curves, strict=True))
+        for reference in references:
+            plain = sum(
+                phi * one[reference] * curve for phi, one, curve in zip(shape, shapes, curves, strict=True)
+            )
+            loaded.append((reference, number, plain / (1 - squared * 2 * relative_shift * own)))
+    rng = np.random.default_rng(5)
+    accelerance = -squared * np.array([values for _, _, values in loaded])
+    size = np.hypot(0.003 * np.abs(accelerance), 3e-4 * np.abs(accelerance).max())
+    noise = rng.normal(size=(2, *accelerance.shape)) / np.sqrt(2)
+    return FrfSet(
+        LINES,
+        tuple(points[number] for _, number, _ in loaded),
+        tuple(points[reference] for reference, _, _ in loaded),
+        accelerance + size * (noise[0] + 1j * noise[1]),
+    )
+
+
+def family(*modes: tuple[int, float, int]) -> list[tuple[int, float, int, float]]:
+    """Cosine and sine of every order, angle and number of node planes."""
+    return [(r, a, n, half) for r, a, n in modes for half in (0.0, np.pi / (2 * r))]
+
+
+def test_both_modes_of_a_doublet_move_with_a_sensor() -> None:
+    """Its split is a quarter of what the sensor moves it by: at every point another sum of the two is the lower one."""
+    frfs = under_a_sensor(5e-4, 2e-3)
+    found = extract(frfs)
+    moving = [mode for mode in found.modes if mode.shift is not None]
+    assert [round(mode.frequency_hz, -1) for mode in moving] == [1000, 1000, 1500, 1500]
+    for low, high in zip(moving[::2], moving[1::2], strict=True):
+        alike = abs(np.vdot(low.participation, high.participation))
+        assert alike < 0.8 * np.linalg.norm(low.participation) * np.linalg.norm(high.participation)
+    # what little of the other sum a point sees stays where it is
+    assert len(found.modes) <= 8
+    assert max(strength(m) for m in found.modes if m.shift is None) < 0.4 * min(strength(m) for m in moving)
+    error = np.abs(found.regenerate(LINES) - frfs.receptance) / np.abs(frfs.receptance).max()
+    assert error.max() < 1e-2
+
+
+def strength(mode: ExtractedMode) -> float:
+    """Size of a mode's receptances."""
+    return float(np.linalg.norm(mode.shape) * np.linalg.norm(mode.participation))

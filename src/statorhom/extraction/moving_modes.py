@@ -6,11 +6,12 @@ The Bayesian information criterion decides between several modes that stay and f
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.extraction.modal_model import Modes, Window
+from statorhom.extraction.modal_model import Modes, Window, unit_part
 from statorhom.extraction.mode_count import grow
 from statorhom.extraction.pole_price import dispersion, misfit, price, set_up_price
 from statorhom.extraction.set_up_shifts import SetUps, fit_shifted, shift_gains
@@ -39,7 +40,7 @@ def moving_set_ups(windows: FittedWindows) -> SetUps | None:
     best, most = None, 0
     fitted = [one for one in windows if len(one[1].modes)]
     for set_ups in SetUps:
-        seen = [one for one in fitted if set_ups.count(one[0]) > 1]
+        seen = [_in_pairs(*one, set_ups) for one in fitted if set_ups.count(one[0]) > 1]
         gains = [float(np.max(_promises(*one, set_ups))) for one in seen]
         images = [set_ups is SetUps.POINTS and _has_images(fit) for _, fit, _ in seen]
         steady = sum(
@@ -96,13 +97,15 @@ def with_moving_modes(
     if not len(fit.modes) or fit.modes.moving.any():
         return fit
     distinct = _distinct(fit)
-    promising = np.max(_promises(window, fit, neighbours, set_ups)) > 1.0
+    promising = np.max(_promises(*_in_pairs(window, fit, neighbours, set_ups), set_ups)) > 1.0
     if not promising and len(distinct) == len(fit.modes):
         return fit
     modes = fit.modes.of(distinct)
     trial = fit_shifted(window, modes, neighbours, np.ones(len(modes), dtype=bool), set_ups)
     if set_ups is SetUps.REFERENCES:
         trial = _damped(window, trial, neighbours, set_ups)
+    else:
+        trial = _doubled(window, trial, neighbours)
     for _ in range(_MOST_BESIDE):
         larger = grow(window, trial, neighbours, stable, (0.0, 0.0), most=1)
         if len(larger.modes) == len(trial.modes):
@@ -110,6 +113,42 @@ def with_moving_modes(
         # what the new mode explains is no shift any more
         trial = refitted(window, larger.modes, neighbours, set_ups)
     return _cheaper(window, trial, fit)
+
+
+def _doubled(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
+    """Two modes in the place of each, where that is the better bargain: a sensor moves both modes of a doublet.
+
+    At every point the sensor makes another of their sums the lower mode; several references tell the two apart.
+    """
+    if window.values.shape[1] < 2:
+        return fit
+    pairs = _paired(fit.modes)
+    return _cheaper(window, fit_shifted(window, pairs, neighbours, pairs.moving, SetUps.POINTS), fit)
+
+
+def _in_pairs(
+    window: Window, fit: WindowFit, neighbours: Modes, set_ups: SetUps
+) -> tuple[Window, WindowFit, Modes]:
+    """The same with two modes that stay in the place of each, where that is the better bargain.
+
+    The first look takes a doublet for one mode; what its partner leaves would hide that a sensor moves both of them.
+    """
+    if set_ups is SetUps.POINTS and window.values.shape[1] > 1:
+        fit = _cheaper(window, fit_window(window, _paired(fit.modes), neighbours), fit)
+    return window, fit, neighbours
+
+
+def _paired(modes: Modes) -> Modes:
+    """Every mode with one of the same pole and another participation."""
+    parts = np.array([_other_part(part) for part in modes.parts])
+    return modes.joined(replace(modes, parts=parts))
+
+
+def _other_part(part: ComplexArray) -> ComplexArray:
+    """A participation that has nothing in common with a given one."""
+    unit = np.zeros(len(part), dtype=complex)
+    unit[np.argmin(np.abs(part))] = 1.0
+    return unit_part(unit - part * (part.conj() @ unit) / np.sum(np.abs(part) ** 2))
 
 
 def _distinct(fit: WindowFit) -> list[int]:
