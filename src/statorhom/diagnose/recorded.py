@@ -20,6 +20,7 @@ from statorhom.diagnose.measured import (
     Sideband,
 )
 from statorhom.diagnose.plane_shifts import distinct_doublets, doubtful_axial, plane_shifts, strongest
+from statorhom.extraction.extraction import ExtractedMode
 from statorhom.extraction.flat_bodies import is_flat_body
 from statorhom.extraction.measured_modes import MeasuredModes, measured_modes
 from statorhom.extraction.modal_table_text import modal_table
@@ -34,7 +35,7 @@ from statorhom.study.modal_table import MeasuredMode, ModalTable
 from statorhom.study.modal_tests import ModalTestKeys
 from statorhom.study.study import StudyFiles
 
-FOLDER, FORMAT = "recordings", 10  # a change of method makes what is kept stale
+FOLDER, FORMAT = "recordings", 11  # a change of method makes what is kept stale
 
 
 @dataclass(frozen=True)
@@ -151,10 +152,17 @@ def from_recording(measured: MeasuredModes, stage: int, name: str, support: str,
 
 
 def _split(measured: MeasuredModes, d: DoubletPair) -> MeasuredSplit:
-    low, high = (measured.modes[i].mode.frequency_hz for i in (d.lower, d.upper))
-    mean = 2 * np.pi**2 * (low**2 + high**2)
+    modes = [measured.modes[i].mode for i in (d.lower, d.upper)]
+    mean = float(np.mean([(2 * np.pi * mode.frequency_hz) ** 2 for mode in modes]))
     sd = float(np.sqrt(np.trace(d.split_covariance) / 2)) / mean
-    return MeasuredSplit(str(d.lower + 1), str(d.upper + 1), d.split / mean, sd)
+    # of two modes that a sensor moves a point sees one: what their poles differ by is known no better than they move
+    moved = min(_moved(mode) for mode in modes)
+    return MeasuredSplit(str(d.lower + 1), str(d.upper + 1), d.split / mean, float(np.hypot(sd, 2.0 * moved)))
+
+
+def _moved(mode: ExtractedMode) -> float:
+    """Standard deviation of a mode's relative shifts from set-up to set-up; 0 for one that stays."""
+    return 0.0 if mode.shift is None else float(np.std(np.real(mode.shift)))
 
 
 def _sideband(measured: MeasuredModes, number: int) -> Sideband | None:
