@@ -103,10 +103,11 @@ def reduce_stage(
     kept = {} if store is None else _kept(store, keys, spaces, box, band)
     # another process may want the same bases at the same time: in different orders, each finds what the other has built
     missing = np.random.default_rng().permutation([i for i in range(len(spaces)) if i not in kept]).tolist()
-    known = _common_snapshots(model, [spaces[i] for i in missing], box, band, plan.common, workers)
+    # of all problems in any case: digits must not depend on what is kept already
+    known = _common_snapshots(model, spaces, box, band, plan.common if missing else 0, workers)
     tasks = [
-        (model, spaces[i], box, band, plan.tolerance, store, keys[i], tuple(cell[place] for cell in known))
-        for place, i in enumerate(missing)
+        (model, spaces[i], box, band, plan.tolerance, store, keys[i], tuple(cell[i] for cell in known))
+        for i in missing
     ]
     if progress is not None and kept:
         progress(len(kept))
@@ -137,7 +138,7 @@ def _common_snapshots(
     workers: Workers,
 ) -> list[tuple[Snapshots, ...]]:
     """Per cell and problem the modes at a few materials; nothing where a plan wants none."""
-    if count == 0 or not spaces:
+    if count == 0:
         return []
     tasks = [(model, spaces, cell, box.span.regions, highest_hz, count) for cell in box.training]
     return workers.map(_snapshots, tasks)

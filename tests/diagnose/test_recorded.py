@@ -1,0 +1,43 @@
+"""What a diagnosis takes from extracted modes."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from statorhom.diagnose.recorded import _split
+
+FREQUENCY_HZ = 1500.0
+SQUARE = (2 * np.pi * FREQUENCY_HZ) ** 2
+
+
+def doublet(*shifts: np.ndarray | None) -> Any:
+    """Two modes of one frequency with shifts over the points, and their relative split of 1e-3 ± 1e-5."""
+    modes = [
+        SimpleNamespace(mode=SimpleNamespace(frequency_hz=FREQUENCY_HZ, shift=shift)) for shift in shifts
+    ]
+    pair = SimpleNamespace(
+        lower=0, upper=1, split=1e-3 * SQUARE, split_covariance=np.eye(2) * (1e-5 * SQUARE) ** 2
+    )
+    return SimpleNamespace(modes=modes), pair
+
+
+def moved(size: float) -> np.ndarray:
+    return size * np.array([-1.0, 1.0, -1.0, 1.0]).reshape(4, 1)
+
+
+@pytest.mark.parametrize(
+    ("shifts", "sd"),
+    [
+        ((None, None), 1e-5),
+        ((moved(2e-3), None), 1e-5),  # the other stays: both were seen by themselves
+        ((moved(2e-3), moved(1e-3)), np.hypot(1e-5, 2e-3)),
+    ],
+)
+def test_the_split_of_two_modes_that_move_is_known_no_better_than_they_move(shifts, sd) -> None:
+    found = _split(*doublet(*shifts))
+    assert abs(found.relative) == pytest.approx(1e-3)
+    assert found.sd == pytest.approx(sd)
