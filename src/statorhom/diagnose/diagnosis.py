@@ -130,7 +130,8 @@ def _find(
     progress(1)
     progress = announce("explanations", 1)
     discrete = [c for c in candidates if not c.parameters]
-    if signatures.p_value < MAX_T_P or lacks_modes(base.free):
+    unpaired = lacks_modes(base.free)
+    if signatures.p_value < MAX_T_P or unpaired:
         found = single_effects(base.free, signatures, discrete, counts)
         if found and found[0].adequacy_but_one < ADEQUATE:
             found = approach.refined(found, base.valleys, counts)
@@ -147,7 +148,7 @@ def _find(
     if found:
         # reported numbers come from the explanation's own model, comparisons from the common one
         best = replace(approach.final(best), log_evidence=best.log_evidence, compared=best.compared)
-    evidence = _evidence(base, best, none, found, signatures, settings.seed)
+    evidence = _evidence(base, best, none, found, signatures, settings.seed, unpaired=unpaired)
     return Found(decide(evidence), best, tuple(found), signatures, evidence, base)
 
 
@@ -171,6 +172,8 @@ def _evidence(
     found: Sequence[Explanation],
     signatures: Scan,
     seed: int,
+    *,
+    unpaired: bool,
 ) -> Evidence:
     rest = others(best, found)
     totals = effect_evidence(found)
@@ -187,7 +190,7 @@ def _evidence(
     common = found[0] if found else best
     return Evidence(
         p_value=p_value,
-        unpaired=lacks_modes(base.free),
+        unpaired=unpaired,
         over_nothing=over,
         over_others=float(own - next_best) if np.isfinite(next_best) else float("inf"),
         held_out=unseen,

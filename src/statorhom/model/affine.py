@@ -130,8 +130,11 @@ class AffineModel(Generic[Mesh]):
 
     def mass_matrix(self, materials: Materials) -> sp.csr_array:
         """M of the part (kg)."""
-        data = sum(materials[region].density * blocks for region, blocks in self.mass.items())
-        return self.pattern.matrix(np.asarray(data))
+        return self.pattern.matrix(self.mass_data({r: materials[r].density for r in self.mass}))
+
+    def mass_data(self, densities: Mapping[str, float]) -> np.ndarray:
+        """Block data (places, 3, 3) of M at the densities of all regions (kg/m³)."""
+        return np.asarray(sum(densities[region] * blocks for region, blocks in self.mass.items()))
 
     def stiffness_term(self, region: str, entry: int) -> sp.csr_array:
         """K_q of one Hooke entry (index into `HOOKE_ENTRIES`) of one region."""

@@ -72,5 +72,5 @@ def _matrices(
 ) -> tuple[sp.csr_array, sp.csr_array]:
     """K and M of the half pitch."""
     entries = {r: hooke for r, hooke in zip(regions, point.hooke, strict=True) if r in model.stiffness}
-    mass = sum(rho * model.mass[r] for r, rho in zip(regions, point.density, strict=True))
-    return model.pattern.matrix(model.stiffness_data(entries)), model.pattern.matrix(np.asarray(mass))
+    mass = model.mass_data(dict(zip(regions, point.density.tolist(), strict=True)))
+    return model.pattern.matrix(model.stiffness_data(entries)), model.pattern.matrix(mass)
