@@ -171,6 +171,7 @@ def measured_node_planes(amplitudes: npt.ArrayLike, z_m: npt.ArrayLike, *, noise
 
 def order_noise(spectrum: OrderSpectrum, order: int) -> float:
     """Amplitude that noise alone gives an order: the median one, which few real orders do not move."""
-    power = np.nanmean(np.abs(spectrum.cosine) ** 2 + np.abs(spectrum.sine) ** 2, axis=0)
-    others = np.delete(power, order)
-    return float(np.sqrt(np.median(others))) if others.size >= _LEAST_NOISE_ORDERS else 0.0
+    motion = np.hypot(np.abs(spectrum.cosine), np.abs(spectrum.sine))
+    scale = float(np.nanmax(motion, initial=0.0)) or 1.0
+    others = np.delete(np.nanmean((motion / scale) ** 2, axis=0), order)
+    return scale * float(np.sqrt(np.median(others))) if others.size >= _LEAST_NOISE_ORDERS else 0.0

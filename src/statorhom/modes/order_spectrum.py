@@ -93,8 +93,9 @@ class OrderSpectrum:
         pairs = np.column_stack([self.cosine[:, order], self.sine[:, order]])
         used = np.isfinite(pairs).all(axis=1)
         left, singular, _ = np.linalg.svd(pairs[used], full_matrices=False)
-        along = left[:, 0] * singular[0]
-        along = (along * np.exp(-0.5j * np.angle(np.sum(along**2)))).real
+        # of unit length until the end: squares of shapes in small units are nothing
+        unit = left[:, 0]
+        along = (unit * np.exp(-0.5j * np.angle(np.sum(unit**2)))).real * singular[0]
         amplitudes = np.full(used.size, np.nan)
         amplitudes[used] = along * np.sign(along[np.argmax(np.abs(along))])
         return amplitudes
