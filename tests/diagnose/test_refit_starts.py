@@ -76,3 +76,28 @@ def test_effects_without_a_place_begin_where_the_scan_did() -> None:
     sliding: Any = SimpleNamespace(parameters=(shear, shear))
     begun = _as_large(signature(sliding, [0.1, 0.2], 1.0, 100.0))
     assert begun.tolist() == [0.1, 0.2]
+
+
+def test_rivals_of_the_favourite_are_sought_all_over_the_prior(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A favourite that explains enough ends the search for others that nobody has looked for."""
+    gains = {"soft": 700.0, "loose": 660.0, "slow": 140.0}
+
+    def candidate(name: str) -> Any:
+        return SimpleNamespace(gain=gains[name], candidate=SimpleNamespace(label=name))
+
+    signatures = [candidate(name) for name in gains]
+    scan: Any = SimpleNamespace(of_every_candidate=lambda: signatures)
+    start = {name: SimpleNamespace(name=name, rough=None) for name in gains}
+    monkeypatch.setattr(refit_starts, "is_poor", lambda _: True)
+    monkeypatch.setattr(refit_starts, "price", lambda _: refit_starts.CHEAP)
+    monkeypatch.setattr(refit_starts, "_starts_of", lambda _, __, s: [start[s.candidate.label]])
+    monkeypatch.setattr(refit_starts, "_searched", lambda s: [f"{s.name} searched"])
+    monkeypatch.setattr(refit_starts, "_narrowed", lambda s: [f"{s.name} searched, narrowed"])
+    monkeypatch.setattr(refit_starts, "_with_rough", lambda _, starts: starts)
+    monkeypatch.setattr(refit_starts, "_promising", lambda _, trials: trials)
+    order: Any = list(refit_starts.in_order(BASE, scan, signatures[:2]))
+    assert [starts for _, starts in order] == [
+        ["soft searched", start["soft"]],
+        ["loose searched, narrowed", start["loose"]],
+        [start["slow"]],
+    ]

@@ -64,5 +64,6 @@ def table_text(modes: tuple[ListedMode, ...], rng: np.random.Generator) -> str:
         sd = float(rng.uniform(*FREQUENCY_SD)) * mode.frequency_hz
         frequency = mode.frequency_hz + sd * rng.standard_normal()
         damping = 0.5 * mode.loss_factor * max(1 + DAMPING_SD * rng.standard_normal(), 0.3)
-        rows.append(f"{frequency:.2f},{damping:.5f},{mode.order},{mode.axial},{sd:.2f}")
+        name = ("" if n is None else str(n) for n in (mode.order, mode.axial))
+        rows.append(f"{frequency:.2f},{damping:.5f},{','.join(name)},{sd:.2f}")
     return "\n".join([*rows, ""])

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from statorhom.diagnose.baseline import Baseline, baseline
+from statorhom.diagnose.declared_again import declared_again
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.location import located
 from statorhom.diagnose.mirrored import at_likelier_height
@@ -29,6 +30,7 @@ class Approach:
     Parameters
     ----------
     baseline : fits the declared model.
+    declared_again : the declared model where explanations lead, if it is the better there.
     refined : the leading explanations in models of their own.
     final : the explanation that is reported, in its own model and at the likeliest of places that look alike.
     located : where an explanation's effect of a number is; None where it is nowhere.
@@ -38,6 +40,7 @@ class Approach:
     """
 
     baseline: Callable[..., Baseline]
+    declared_again: Callable[[Baseline, Sequence[Explanation]], Baseline | None]
     refined: Refined
     final: Callable[[Explanation], Explanation]
     located: Callable[[Explanation, int], Location | PlanLocation | None]
@@ -60,4 +63,4 @@ def _ring_pictures(
     }
 
 
-RING = Approach(baseline, refined, _ring_final, located, next_measurement, _ring_pictures)
+RING = Approach(baseline, declared_again, refined, _ring_final, located, next_measurement, _ring_pictures)

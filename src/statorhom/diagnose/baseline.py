@@ -83,18 +83,34 @@ def baseline(
     valleys: tuple[np.ndarray, ...] = ()
     for setup in tested:
         own = [tests[t.name] for t in setup.tests if t.name in tests]
-        own = [t for t in own if t.support == FREE] or own
-        study, z, valleys = _with_step(study, z, setup, own, settings)
-    z = refit(Hypothesis(study), z).z
+        study, z, valleys = _with_step(study, z, setup, _leading(own), settings)
     whole = study.with_stages(
         tuple(
             replace(s, tests=tuple(tests[t.name] for t in s.setup.tests if t.name in tests))
             for s in study.stages
         )
     )
-    free = evaluated(Hypothesis(whole), z)
-    same = all(t.support == FREE for s in whole.stages for t in s.tests)
-    return Baseline(whole, free, free if same else refit(Hypothesis(whole), z), valleys)
+    return baseline_at(whole, z, valleys)
+
+
+def baseline_at(study: StudyModel, z: np.ndarray, valleys: tuple[np.ndarray, ...]) -> Baseline:
+    """The declared model at the optimum next to some constants.
+
+    Parameters
+    ----------
+    study : with all tests.
+    z, valleys : constants there, and at other optima.
+    """
+    free_tests = tuple(replace(s, tests=tuple(_leading(s.tests))) for s in study.stages)
+    z = refit(Hypothesis(study.with_stages(free_tests)), z).z
+    free = evaluated(Hypothesis(study), z)
+    same = all(t.support == FREE for s in study.stages for t in s.tests)
+    return Baseline(study, free, free if same else refit(Hypothesis(study), z), valleys)
+
+
+def _leading(tests: Sequence[MeasuredTest]) -> Sequence[MeasuredTest]:
+    """The free tests of a step, all where there are none."""
+    return [t for t in tests if t.support == FREE] or tests
 
 
 def _with_step(

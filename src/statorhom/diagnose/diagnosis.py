@@ -14,7 +14,6 @@ from statorhom.diagnose.approach import RING, Approach
 from statorhom.diagnose.baseline import Baseline
 from statorhom.diagnose.coupons.body_approach import BODY
 from statorhom.diagnose.decision import (
-    MAX_T_P,
     Evidence,
     Verdict,
     decide,
@@ -30,7 +29,7 @@ from statorhom.diagnose.explanations import (
 from statorhom.diagnose.gross_rows import without_gross_rows
 from statorhom.diagnose.held_out import HeldOut, held_out
 from statorhom.diagnose.held_out_name import held_out_names, renames_alone
-from statorhom.diagnose.lacking_modes import lacks_modes
+from statorhom.diagnose.leading_effects import Leading, leading_effects
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.next_measurement import Choice
 from statorhom.diagnose.one_line_errors import one_line_errors
@@ -44,10 +43,9 @@ from statorhom.diagnose.report_rows import (
     mismatch,
 )
 from statorhom.diagnose.resampling import stability
-from statorhom.diagnose.scan import Scan, rescanned, scan
+from statorhom.diagnose.scan import Scan, rescanned
 from statorhom.diagnose.second_effects import second_effects
 from statorhom.diagnose.simpler import by_criterion, simpler_fits
-from statorhom.diagnose.single_effects import new_names, single_effects
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.geometry.tested_object import ObjectGeometry
 from statorhom.identify.announce import Announce, silent
@@ -125,39 +123,30 @@ def _find(
     progress(1)
     candidates = all_candidates(files)
     counts = dict(Counter(c.effect for c in candidates))
-    progress = announce("scan of effects", 1)
-    signatures = scan(base.free, [c for c in candidates if c.parameters], settings.seed)
-    progress(1)
     progress = announce("explanations", 1)
-    discrete = [c for c in candidates if not c.parameters]
-    unpaired = lacks_modes(base.free)
-    if signatures.p_value < MAX_T_P or unpaired:
-        found = single_effects(base.free, signatures, discrete, counts)
+    leading = leading_effects(approach, base, candidates, counts, settings.seed)
+    found = list(leading.found)
+    if leading.misfit_is_real:
         if found and found[0].adequacy_but_one < ADEQUATE:
-            found = approach.refined(found, base.valleys, counts)
+            found = approach.refined(found, leading.base.valleys, counts)
         # one gross error asks for no second effect
         if found and found[0].adequacy_but_one < ADEQUATE:
-            found = _pairs(base, found, signatures, counts) + found
-        found = without_gross_rows(base.free, found, counts)
-    else:
-        # nothing but another name can be found any more
-        found = new_names(base.free, discrete, counts)
+            found = _pairs(leading, found, counts) + found
+        found = without_gross_rows(leading.base.free, found, counts)
     progress(1)
-    none = nothing(base.refit)
+    none = nothing(leading.base.refit)
     best = found[0] if found else none
     if found:
         # reported numbers come from the explanation's own model, comparisons from the common one
         best = replace(approach.final(best), log_evidence=best.log_evidence, compared=best.compared)
-    evidence = _evidence(base, best, none, found, signatures, settings.seed, unpaired=unpaired)
-    return Found(decide(evidence), best, tuple(found), signatures, evidence, base)
+    evidence = _evidence(leading, best, none, found, settings.seed)
+    return Found(decide(evidence), best, tuple(found), leading.scan, evidence, leading.base)
 
 
-def _pairs(
-    base: Baseline, found: Sequence[Explanation], signatures: Scan, counts: dict[str, int]
-) -> list[Explanation]:
+def _pairs(leading: Leading, found: Sequence[Explanation], counts: dict[str, int]) -> list[Explanation]:
     """The best explanation with one more effect, the best first; none where modes that it did not see contradict."""
     first = found[0]
-    pairs = second_effects(first, rescanned(signatures, base.free, first.refit), counts)
+    pairs = second_effects(first, rescanned(leading.scan, leading.base.free, first.refit), counts)
     if not pairs:
         return []
     # both effects have to hold: the second one against the first alone
@@ -166,31 +155,21 @@ def _pairs(
 
 
 def _evidence(
-    base: Baseline,
-    best: Explanation,
-    none: Explanation,
-    found: Sequence[Explanation],
-    signatures: Scan,
-    seed: int,
-    *,
-    unpaired: bool,
+    leading: Leading, best: Explanation, none: Explanation, found: Sequence[Explanation], seed: int
 ) -> Evidence:
     rest = others(best, found)
     totals = effect_evidence(found)
     own = totals.get(best.effects, best.log_evidence)
     next_best = max((totals[e.effects] for e in rest), default=-np.inf)
-    discrete = renames_alone(best)
-    # names are discrete: no signature stands for them, their evidence does
-    p_value = float(np.exp(-max(0.0, own - none.log_evidence))) if discrete else signatures.p_value
     over = own - none.log_evidence
     unseen: HeldOut | None = None
     if best.candidates and over > 0:
-        unseen = (held_out_names if discrete else held_out)(base.refit, best)
+        unseen = (held_out_names if renames_alone(best) else held_out)(leading.base.refit, best)
     # compared in the model that all share: the best one's own basis is not its rivals'
     common = found[0] if found else best
     return Evidence(
-        p_value=p_value,
-        unpaired=unpaired,
+        p_value=leading.chance(best),
+        unpaired=leading.unpaired,
         over_nothing=over,
         over_others=float(own - next_best) if np.isfinite(next_best) else float("inf"),
         held_out=unseen,

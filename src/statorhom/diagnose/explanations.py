@@ -136,12 +136,14 @@ def through_wide_valleys(hypothesis: _H, z: np.ndarray, rough: Refit[_H] | None 
     Valleys narrow by degrees: from a wide one straight into the narrowest, a side valley is the nearest.
     """
     found = rough or widened(hypothesis, z)
-    if found is None:
-        return None
+    return None if found is None else refitted(replace(hypothesis, held=None), narrowed(found).z)
+
+
+def narrowed(rough: Refit[_H]) -> Refit[_H]:
+    """An optimum in wide valleys, followed as far as it can be without their narrowest part."""
     for discrepancy in NARROWING:
-        wide = replace(found.hypothesis, held=None, discrepancy=discrepancy)
-        found = refitted(wide, found.z) or found
-    return refitted(replace(hypothesis, held=None), found.z)
+        rough = refitted(replace(rough.hypothesis, held=None, discrepancy=discrepancy), rough.z) or rough
+    return rough
 
 
 def effect_evidence(explanations: Sequence[Explanation]) -> dict[tuple[str, ...], float]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from statorhom.diagnose.explanations import blank, widened
+from statorhom.diagnose.explanations import blank, narrowed, widened
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.scan import Scan, Signature
@@ -25,6 +25,7 @@ CHEAP, MIDDLING, DEAR = range(3)  # prices
 AMOUNTS = 0.3, 8.0  # that a start's magnitude is multiplied by
 FIRST = 4  # cheap candidates that are followed whatever wide valleys say of them
 PART = 0.2  # of the best one's gain in wide valleys, from which on others are
+ALIKE = 0.5  # of the favourite's gain, from which on another one is sought all over the prior too
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,6 +77,9 @@ def in_order(base: Refit, found: Scan, favourites: Sequence[Signature]) -> Itera
         (s.gain, _starts_of(base, found, s)) for s in found.of_every_candidate() if s not in (first, *rest)
     ]
     cheap = [trial for trial in (*trials, *others) if price(trial) == CHEAP]
+    alike = [trial for trial in cheap if trial[0] >= ALIKE * first.gain]
+    yield from ((gain, [*_narrowed(starts[0]), *starts]) for gain, starts in alike)
+    cheap = [trial for trial in cheap if trial not in alike]
     widest = [(gain, _with_rough(base, starts)) for gain, starts in cheap]
     yield from _promising(base, widest)
     yield from sorted((trial for trial in trials if price(trial) > CHEAP), key=price)
@@ -143,6 +147,12 @@ def _searched(start: Start) -> list[Start]:
     """Starts at the best optima that are found all over the prior, in wide valleys."""
     found = searched_starts(start.hypothesis, start.z)[:STARTS]
     return [replace(start, z=rough.z, rough=rough) for rough in found]
+
+
+def _narrowed(start: Start) -> list[Start]:
+    """The same for a rival: at the optima in narrower valleys, for it will be sought from there straight away."""
+    narrow = (narrowed(s.rough) for s in _searched(start) if s.rough is not None)
+    return [replace(start, z=found.z) for found in narrow]
 
 
 def _with_rough(base: Refit, starts: list[Start]) -> list[Start]:

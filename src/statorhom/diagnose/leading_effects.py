@@ -1,0 +1,106 @@
+"""The best single effects, sought beside the best declared model: either may lead to a better one of the other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from statorhom.diagnose.approach import Approach
+from statorhom.diagnose.baseline import Baseline
+from statorhom.diagnose.decision import MAX_T_P, OVER_NOTHING
+from statorhom.diagnose.explanations import Explanation, nothing
+from statorhom.diagnose.held_out_name import renames_alone
+from statorhom.diagnose.lacking_modes import lacks_modes
+from statorhom.diagnose.scan import Scan, scan
+from statorhom.diagnose.single_effects import new_names, single_effects
+from statorhom.physics.candidate import Candidate
+
+AGAIN = 2  # times that the declared model is sought where explanations lead
+
+
+@dataclass(frozen=True, eq=False)
+class Leading:
+    """Single effects and what they were sought beside.
+
+    Parameters
+    ----------
+    base : the declared model, in the deepest valley that is known.
+    scan : of all effects there.
+    unpaired : many measured modes have no partner there.
+    found : explanations, the best first.
+    elsewhere : labels of those that were found beside the declared model of another valley and are better than this
+        one; its signatures do not say what they explain.
+    """
+
+    base: Baseline
+    scan: Scan
+    unpaired: bool
+    found: tuple[Explanation, ...]
+    elsewhere: frozenset[str] = frozenset()
+
+    def chance(self, best: Explanation) -> float:
+        """Of the misfit that the best explanation was found by.
+
+        No signature stands for another valley, nor for another name: their evidence does.
+        """
+        if renames_alone(best) or _label(best) in self.elsewhere:
+            over = best.log_evidence - nothing(self.base.refit).log_evidence
+            return float(np.exp(-max(0.0, over)))
+        return self.scan.p_value
+
+    @property
+    def misfit_is_real(self) -> bool:
+        """Whether anything is left for an effect to explain."""
+        return self.scan.p_value < MAX_T_P or self.unpaired or bool(self.elsewhere)
+
+
+def leading_effects(
+    approach: Approach, base: Baseline, candidates: Sequence[Candidate], counts: dict[str, int], seed: int
+) -> Leading:
+    """Scan and refits beside the declared model, and once more where that turns out to have a deeper valley.
+
+    Parameters
+    ----------
+    approach, base : the kind of body, and the declared model.
+    candidates : all effects.
+    counts : effect → number of its candidates, over which its prior is spread.
+    seed : of the scan's null distribution.
+    """
+    leading = _beside(base, candidates, counts, seed)
+    for _ in range(AGAIN):
+        deeper = approach.declared_again(leading.base, leading.found)
+        if deeper is None:
+            break
+        leading = _joined(leading, _beside(deeper, candidates, counts, seed))
+    return leading
+
+
+def _beside(base: Baseline, candidates: Sequence[Candidate], counts: dict[str, int], seed: int) -> Leading:
+    signatures = scan(base.free, [c for c in candidates if c.parameters], seed)
+    discrete = [c for c in candidates if not c.parameters]
+    begun = Leading(base, signatures, lacks_modes(base.free), ())
+    if begun.misfit_is_real:
+        found = single_effects(base.free, signatures, discrete, counts)
+    else:
+        # nothing but another name can be found any more
+        found = new_names(base.free, discrete, counts)
+    return Leading(base, signatures, begun.unpaired, tuple(found))
+
+
+def _joined(before: Leading, now: Leading) -> Leading:
+    """What was found in both valleys, the better one of every candidate."""
+    least = nothing(now.base.refit).log_evidence + OVER_NOTHING
+    best: dict[str, Explanation] = {}
+    for e in sorted((*before.found, *now.found), key=lambda e: -e.log_evidence):
+        best.setdefault(_label(e), e)
+    elsewhere = frozenset(
+        label for e in before.found if best[label := _label(e)] is e and e.log_evidence > least
+    )
+    return Leading(now.base, now.scan, now.unpaired, tuple(best.values()), elsewhere)
+
+
+def _label(explanation: Explanation) -> str:
+    """Of its candidates."""
+    return " + ".join(c.label for c in explanation.candidates)

@@ -1,0 +1,100 @@
+"""A declared model in the wrong valley, and what was found beside it."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from statorhom.diagnose import declared_again as again
+from statorhom.diagnose import leading_effects as leading
+from statorhom.diagnose.leading_effects import leading_effects
+
+
+def base(log_evidence: float, objective: float = 1000.0, constants: int = 2) -> Any:
+    hypothesis = SimpleNamespace(constants=constants)
+    fit = SimpleNamespace(
+        log_evidence=log_evidence, objective=objective, hypothesis=hypothesis, z=[0.0] * constants
+    )
+    return SimpleNamespace(free=fit, refit=fit, valleys=())
+
+
+def explanation(label: str, log_evidence: float) -> Any:
+    return SimpleNamespace(candidates=(SimpleNamespace(label=label),), log_evidence=log_evidence)
+
+
+def led(monkeypatch: pytest.MonkeyPatch, p_value: float, *steps: tuple[Any, list[Any]]) -> Any:
+    """What leads where the declared model is first one, then another."""
+    bases = [b for b, _ in steps]
+    monkeypatch.setattr(leading, "lacks_modes", lambda _: False)
+    monkeypatch.setattr(
+        leading, "scan", lambda fit, *_: SimpleNamespace(p_value=1e-4 if fit is bases[0].free else p_value)
+    )
+    monkeypatch.setattr(leading, "single_effects", lambda fit, *_: next(e for b, e in steps if b.free is fit))
+    monkeypatch.setattr(leading, "new_names", lambda *_: [])
+    monkeypatch.setattr(leading, "renames_alone", lambda _: False)
+    approach: Any = SimpleNamespace(
+        declared_again=lambda now, _: next(iter(bases[bases.index(now) + 1 :]), None)
+    )
+    return leading_effects(approach, bases[0], [], {}, 1)
+
+
+def test_one_valley_is_judged_by_its_scan(monkeypatch: pytest.MonkeyPatch) -> None:
+    lump = explanation("lump", -50.0)
+    found = led(monkeypatch, 0.5, (base(-700.0), [lump]))
+    assert found.found == (lump,)
+    assert found.misfit_is_real
+    assert found.chance(lump) == 1e-4
+
+
+def test_what_was_found_beside_another_valley_is_judged_by_its_evidence(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    soft, loose = explanation("soft", -53.0), explanation("loose", -103.5)
+    deeper = base(-99.7)
+    found = led(monkeypatch, 0.5, (base(-700.0), [soft, loose]), (deeper, []))
+    assert found.base is deeper
+    assert [e.log_evidence for e in found.found] == [-53.0, -103.5]
+    assert found.misfit_is_real
+    assert found.chance(soft) < 1e-15
+    # what is no better than the deeper valley needs no physics
+    assert found.chance(found.found[1]) == 0.5
+
+
+def test_a_deeper_valley_may_leave_nothing_to_explain(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = led(monkeypatch, 0.5, (base(-700.0), [explanation("loose", -100.0)]), (base(-99.0), []))
+    assert not found.misfit_is_real
+    assert found.chance(found.found[0]) == 0.5
+
+
+def sought_again(monkeypatch: pytest.MonkeyPatch, without_effect: float) -> Any:
+    """The declared model from an explanation's constants, whose refit without the effect ends at an objective."""
+    monkeypatch.setattr(again, "blank", lambda hypothesis, _: hypothesis)
+    monkeypatch.setattr(
+        again, "refitted", lambda h, z: SimpleNamespace(objective=without_effect, hypothesis=h, z=z)
+    )
+    monkeypatch.setattr(again, "nothing", lambda refit: SimpleNamespace(refit=refit))
+    monkeypatch.setattr(again, "sharpened", lambda e: e)
+    fit = SimpleNamespace(hypothesis=SimpleNamespace(study=None), z=[1.0, 2.0, 3.0])
+    found: Any = [SimpleNamespace(refit=fit)]
+    monkeypatch.setattr(
+        again,
+        "baseline_at",
+        lambda _, z, valleys: SimpleNamespace(**vars(base(0.0, without_effect)), z=z, kept=valleys),
+    )
+    return again.declared_again(base(-700.0, 1000.0), found)
+
+
+def test_constants_that_explain_more_without_the_effect_are_the_declared_models(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    deeper = sought_again(monkeypatch, 100.0)
+    assert deeper.z == [1.0, 2.0]  # the effect's own coordinate is left out
+    assert deeper.kept == ([0.0, 0.0],)  # where it was is a valley still
+
+
+def test_the_declared_model_stays_where_an_explanation_needs_its_effect(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert sought_again(monkeypatch, 990.0) is None
