@@ -8,8 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from statorhom.diagnose.measured import PlaneShifts
 from statorhom.diagnose.plane_shifts import (
     _by_plane,
+    _is_inside,
+    _may_be_a_sensors,
     distinct_doublets,
     doubtful_axial,
     stands_off,
@@ -118,3 +121,37 @@ def test_a_short_cores_two_families_of_one_order_are_no_images() -> None:
     assert strongest(modes, set()) == [0, 1]
     assert doubtful_axial(modes, [0, 1]) == set()
     assert not stands_off(modes, 1, [0, 1])
+
+
+def shown(*amplitudes: float) -> Any:
+    """A mode of order 2 with amplitudes at as many planes."""
+    along = np.array(amplitudes)
+    spectrum = SimpleNamespace(signed_amplitudes=lambda _: along)
+    places = np.linspace(0.01, 0.07, len(along))
+    return SimpleNamespace(
+        order=2, name=SimpleNamespace(spectrum=spectrum), shape=SimpleNamespace(z_m=places)
+    )
+
+
+def of_planes(one: Any, *shift: float) -> PlaneShifts:
+    moved = np.array(shift)
+    return PlaneShifts("1", one.shape.z_m, moved - moved.mean(), np.full(len(moved), 2e-5), 0.0)
+
+
+def test_a_mass_pulls_a_pole_down_where_the_mode_moves_most() -> None:
+    one = shown(1.0, 0.3, -0.3, -1.0)
+    assert _may_be_a_sensors(of_planes(one, -1e-3, -1e-4, -1e-4, -1e-3), one)
+    assert not _may_be_a_sensors(of_planes(one, 1e-3, 1e-4, 1e-4, 1e-3), one)
+    # both ends move alike: what pulls at one of them alone is no mass that roves
+    assert not _may_be_a_sensors(of_planes(one, -1e-3, -1e-4, -1e-4, -1e-4), one)
+
+
+def test_poles_that_hardly_move_may_be_anybodys() -> None:
+    one = shown(1.0, 0.3, -0.3, -1.0)
+    assert _may_be_a_sensors(of_planes(one, 5e-5, -5e-5, 0.0, 2e-5), one)
+
+
+def test_single_frfs_tell_no_pole_at_the_end_of_the_band() -> None:
+    assert _is_inside(mode(1000.0, 2, 0, 1.0), (100.0, 1100.0))
+    assert not _is_inside(mode(1000.0, 2, 0, 1.0), (100.0, 1015.0))
+    assert not _is_inside(mode(1000.0, 2, 0, 1.0), (985.0, 5000.0))

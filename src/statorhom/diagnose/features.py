@@ -120,14 +120,17 @@ def assigned(
 
 
 def _as_seen(mode: PredictedMode, modes: Sequence[MeasuredMode]) -> PredictedMode:
-    """Called by the one of its two counts of node planes that was measured nearer to its frequency."""
-    if mode.other_axial is None:
+    """Called by the one of its counts of node planes that was measured nearest to its frequency."""
+    counts = mode.shown or (mode.axial,)
+    if mode.other_axial is not None:
+        counts = (*counts, mode.other_axial)
+    if counts == (mode.axial,):
         return mode
-    away = {mode.axial: np.inf, mode.other_axial: np.inf}
+    away = dict.fromkeys(counts, np.inf)
     for row in modes:
         if row.order == mode.order and row.axial in away:
             away[row.axial] = min(away[row.axial], abs(np.log(row.frequency_hz) - mode.log_f))
-    return replace(mode, counted=away[mode.other_axial] < away[mode.axial])
+    return replace(mode, counted=min(away, key=away.__getitem__))
 
 
 def missed_cost(test: MeasuredTest, keys: Keys, predicted: Mapping[ModeKey, PredictedMode]) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
+from statorhom.diagnose.counted_planes import counted_at_planes
 from statorhom.diagnose.damping import (
     free_losses,
     is_damped,
@@ -106,7 +107,8 @@ class Hypothesis(AnyHypothesis):
                     there = acted_materials(self.study, stage, values, actions, test.name)
                     held[test.name] = partners(stage, test, reference, found, there) if reference else ()
                 else:
-                    keys = assigned(test, self.modes(test, actions), found)
+                    seen = counted_at_planes(stage, test, found)
+                    keys = assigned(test, self.modes(test, actions), seen)
                     held[test.name] = keys
                     missed += missed_cost(test, keys, found)
         return replace(self, held=held, names=names, missed=missed)
@@ -214,7 +216,7 @@ class Hypothesis(AnyHypothesis):
             return []
         there = acted_materials(self.study, stage, values, actions, test.name)
         logs, held = predicted_logs(stage, reference, modes, there), cast(Partners, self.held[test.name])
-        found = supported_features(test, held, logs, self.discrepancy)
+        found = supported_features(test, held, logs, reference.own, self.discrepancy)
         losses = self._losses(stage, test, modes, values, actions)
         if losses:
             springs = sum(a.support_losses.get(test.support, 0.0) for a in actions)

@@ -23,6 +23,10 @@ LARGEST = 0.03  # shifts beyond are of another mode
 # half-power bandwidths beyond their spread by which all planes' poles may lie on one side of the mode's own: farther
 # off they are a neighbour's
 FOREIGN = 0.5
+FLANKS = 2.0  # half-power bandwidths
+# What a mass alone does not do to a pole: absolute, relative; mean square in standard deviations from which on
+# something else has moved what looks like the pole.
+OWN_SHIFT, OWN_PART, NO_SENSOR = 5e-5, 0.1, 5.0
 
 
 def plane_shifts(measured: MeasuredModes) -> tuple[PlaneShifts, ...]:
@@ -35,7 +39,10 @@ def plane_shifts(measured: MeasuredModes) -> tuple[PlaneShifts, ...]:
     alone = [
         i
         for i in kept
-        if i not in paired and measured.modes[i].order is not None and stands_off(measured.modes, i, kept)
+        if i not in paired
+        and measured.modes[i].order is not None
+        and stands_off(measured.modes, i, kept)
+        and _is_inside(measured.modes[i], measured.extraction.band_hz)
     ]
     if not alone:
         return ()
@@ -54,9 +61,33 @@ def plane_shifts(measured: MeasuredModes) -> tuple[PlaneShifts, ...]:
         shifts = _by_plane(
             label, heights, poles.relative_shift[row], poles.relative_shift_sd[row], one.mode.loss_factor
         )
-        if shifts is not None:
+        if shifts is not None and _may_be_a_sensors(shifts, one):
             found.append(shifts)
     return tuple(found)
+
+
+def _is_inside(one: NamedMode, band_hz: tuple[float, float]) -> bool:
+    """Whether the recording holds both flanks of the resonance: a single FRF's pole leans on them."""
+    low, high = band_hz
+    reach = FLANKS * one.mode.bandwidth_hz
+    return low + reach < one.mode.frequency_hz < high - reach
+
+
+def _may_be_a_sensors(shifts: PlaneShifts, one: NamedMode) -> bool:
+    """Whether a mass could do this: where the mode moves most its pole is lowest, by the square of how it moves."""
+    if one.shape is None or one.order is None or one.name is None or one.name.spectrum is None:
+        return True
+    along = one.name.spectrum.signed_amplitudes(one.order)
+    places = [int(np.argmin(np.abs(one.shape.z_m - z))) for z in shifts.z_m]
+    energy = (along[places] / np.nanmax(np.abs(along))) ** 2
+    if not np.isfinite(energy).all():
+        return True
+    weight = 1.0 / (shifts.sd**2 + OWN_SHIFT**2 + (OWN_PART * shifts.shift) ** 2)
+    away = energy - float(weight @ energy / weight.sum())
+    size = float(weight @ away**2)
+    slope = min(0.0, float(weight @ (away * shifts.shift)) / size) if size > 0.0 else 0.0
+    rest = shifts.shift - float(weight @ shifts.shift / weight.sum()) - slope * away
+    return float(weight @ rest**2) < NO_SENSOR * len(rest)
 
 
 def _is_narrow(modes: Sequence[NamedMode], doublet: DoubletPair) -> bool:

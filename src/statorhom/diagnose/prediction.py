@@ -45,7 +45,8 @@ class PredictedMode(NamedByMode):
     friction : what slipping adds to the loss factor.
     scattered : relative split by a unit of the scatter of its order.
     other_axial : count of node planes that the hypothesis may make it show instead of its own.
-    counted : whether that is what it is counted by.
+    shown : counts that a test's planes may show instead of its own, the likeliest first; empty where they are unknown.
+    counted : what it is counted by, where that is not its own count.
     """
 
     key: ModeKey
@@ -58,11 +59,12 @@ class PredictedMode(NamedByMode):
     friction: float = 0.0
     scattered: float = 1.0
     other_axial: int | None = None
-    counted: bool = False
+    shown: tuple[int, ...] = ()
+    counted: int | None = None
 
     @property
     def axial(self) -> int | None:
-        return self.other_axial if self.counted else self.mode.axial
+        return self.mode.axial if self.counted is None else self.counted
 
     @property
     def frequency_hz(self) -> float:

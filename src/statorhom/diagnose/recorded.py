@@ -35,7 +35,7 @@ from statorhom.study.modal_table import MeasuredMode, ModalTable
 from statorhom.study.modal_tests import ModalTestKeys
 from statorhom.study.study import StudyFiles
 
-FOLDER, FORMAT = "recordings", 11  # a change of method makes what is kept stale
+FOLDER, FORMAT = "recordings", 12  # a change of method makes what is kept stale
 
 
 @dataclass(frozen=True)

@@ -31,6 +31,8 @@ from statorhom.recordings.placement import Placement
 from statorhom.recordings.read import read_recording
 
 CONFIDENT = 0.95  # probability from which on a name counts as known
+LEAST_SHARE = 0.4  # of the radial motion that an order must have, to be the mode's
+CLEAR = 0.6  # from which on it is nobody else's
 
 
 @dataclass(frozen=True)
@@ -67,8 +69,15 @@ class NamedMode:
         """Circumferential order r; None where the points do not tell it beyond doubt."""
         if self.doublet is not None:
             return self.doublet[0]
-        sure = self.name is not None and (self.name.confidence or 0.0) >= CONFIDENT
-        return self.name.name.order if sure and self.name and self.name.name else None
+        if self.name is None or self.name.name is None or self.order_share < LEAST_SHARE:
+            return None
+        return self.name.name.order if (self.name.confidence or 0.0) >= CONFIDENT else None
+
+    @property
+    def order_share(self) -> float:
+        """Part of the radial motion that its strongest order has; 0 where nothing moves like that."""
+        radial = self.name is not None and self.name.name is not None and self.name.name.kind == "radial"
+        return self.name.name.share if radial and self.name and self.name.name else 0.0
 
     @property
     def axial(self) -> int | None:
@@ -172,7 +181,8 @@ def _with_sensor(
     if extraction.hammer_roved:
         return tuple(modes), None
     names = {i: (one.order, one.axial) for i, one in enumerate(modes) if one.order is not None}
-    partners = turned_partners(extraction.modes, names)
+    clear = [i for i, one in enumerate(modes) if i in names and one.order_share > CLEAR]
+    partners = turned_partners(extraction.modes, names, clear)
     named = tuple(
         replace(one, doublet=partners[i], features=None) if i in partners else one
         for i, one in enumerate(modes)

@@ -65,7 +65,9 @@ class Window:
         """Curves over `squared`, averaged over the bins."""
         if self.bin == 1:
             return curves
-        mean: ComplexArray = curves.reshape(*curves.shape[:-1], self.values.shape[-1], self.bin).mean(axis=-1)
+        # a product: NumPy's mean of so few lines at a time takes six times as long
+        lines = curves.reshape(*curves.shape[:-1], self.values.shape[-1], self.bin)
+        mean: ComplexArray = lines @ np.full(self.bin, 1.0 / self.bin)
         return mean
 
 
@@ -178,7 +180,9 @@ def modal_columns(window: Window, modes: Modes, power: int = 1) -> ComplexArray:
     poles = modes.poles[None, :, None]
     if modes.moving.any():
         poles = poles * (1 + modes.shift) ** 2
-    curve = window.binned((poles[..., None] - window.squared) ** -power)
+    # a reciprocal's power is several times cheaper than a negative power
+    reciprocal = (poles[..., None] - window.squared) ** -1
+    curve = window.binned(reciprocal**power)
     result: ComplexArray = modes.parts[None, :, :, None] * curve
     return result
 

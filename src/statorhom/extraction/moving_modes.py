@@ -28,6 +28,7 @@ _IMAGES_COUNT = 3  # windows that one with images counts for
 _APART = 0.3  # common part of the amplitudes of two images
 _OVERLAP = 3.0  # bandwidths within which images of one moving mode lie
 _MOST_BESIDE = 3  # modes that stay beside those that move
+_BROAD = 0.02  # loss factor from which on resonances overlap by more than any sensor moves them
 
 FittedWindows = Sequence[tuple[Window, WindowFit, Modes]]  # with the neighbours
 
@@ -35,10 +36,11 @@ FittedWindows = Sequence[tuple[Window, WindowFit, Modes]]  # with the neighbours
 def moving_set_ups(windows: FittedWindows) -> SetUps | None:
     """What the poles move with, if they move in most windows; None for a test whose poles stay.
 
-    One doublet that is barely split looks like a mode that moves. Set-ups that differ move most modes.
+    One doublet that is barely split looks like a mode that moves. Set-ups that differ move most modes. Broad resonances
+    that overlap look like fewer that move.
     """
     best, most = None, 0
-    fitted = [one for one in windows if len(one[1].modes)]
+    fitted = [one for one in windows if len(one[1].modes) and not _is_broad(one[1])]
     for set_ups in SetUps:
         seen = [_in_pairs(*one, set_ups) for one in fitted if set_ups.count(one[0]) > 1]
         gains = [float(np.max(_promises(*one, set_ups))) for one in seen]
@@ -53,6 +55,12 @@ def moving_set_ups(windows: FittedWindows) -> SetUps | None:
         if moving > _MAJORITY * steady and moving > most:
             best, most = set_ups, moving
     return best
+
+
+def _is_broad(fit: WindowFit) -> bool:
+    """Whether a window's resonances are too broad to tell a pole that moves from two that overlap."""
+    poles = fit.modes.poles
+    return bool(np.median(poles.imag / poles.real) > _BROAD)
 
 
 def most_move(windows: Sequence[bool]) -> bool:
@@ -94,7 +102,7 @@ def with_moving_modes(
     stable : complex array, shape (poles,)
         As in `grow`.
     """
-    if not len(fit.modes) or fit.modes.moving.any():
+    if not len(fit.modes) or fit.modes.moving.any() or _is_broad(fit):
         return fit
     distinct = _distinct(fit)
     promising = np.max(_promises(*_in_pairs(window, fit, neighbours, set_ups), set_ups)) > 1.0

@@ -41,12 +41,17 @@ class RadialProfile:
         return np.asarray(amplitude.imag if harmonic.parity == "odd" else amplitude.real)
 
 
-def radial_profile(mesh: HalfPitchMesh) -> RadialProfile:
-    """Planes over the core's height, the ends included, and angles within one slot pitch."""
-    planes = np.linspace(0.02, 0.98, PLANES) * mesh.length
+def radial_profile(mesh: HalfPitchMesh, planes_m: np.ndarray | None = None) -> RadialProfile:
+    """Planes over the core's height, the ends included, and angles within one slot pitch.
+
+    Parameters
+    ----------
+    planes_m : (p,) other axial positions (m).
+    """
+    planes = np.linspace(0.02, 0.98, PLANES) * mesh.length if planes_m is None else planes_m
     pitch = 2 * np.pi / mesh.slots
     angles = (np.arange(ANGLES_PER_PITCH) + 0.5) / ANGLES_PER_PITCH * pitch - pitch / 2
-    points = surface_points(mesh, np.tile(angles, PLANES), np.repeat(planes, ANGLES_PER_PITCH))
+    points = surface_points(mesh, np.tile(angles, len(planes)), np.repeat(planes, ANGLES_PER_PITCH))
     return RadialProfile(planes, points, angles)
 
 

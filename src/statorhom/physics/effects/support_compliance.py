@@ -11,7 +11,8 @@ from statorhom.physics.parameter import EffectParameter
 from statorhom.study.study import StudyFiles
 from statorhom.study.supports import FaceSupport, LineSupport, SupportKeys
 
-NORMAL = EffectParameter("normal_stiffness_n_per_m2", 3e8, 1e11, 1e7, 1e13, "log", (1e10, 1e9, 1e11), None)
+# a line that is stiffer than the metal it presses on is rigid
+NORMAL = EffectParameter("normal_stiffness_n_per_m2", 3e8, 1e11, 1e7, 2e11, "log", (1e10, 1e9, 1e11), None)
 AREA = EffectParameter("normal_stiffness_n_per_m3", 1e10, 1e13, 1e9, 1e15, "log", (3e11, 1e13), None)
 LOSS = EffectParameter("loss_factor", 0.005, 0.2, 1e-4, 2.0, "log", (0.03,), None)
 RATIO = EffectParameter("tangential_ratio", 0.2, 1.5, 0.02, 4.0, "log", (0.7,), None)

@@ -1,0 +1,77 @@
+"""What a test's own measuring planes count of a mode's node planes.
+
+Four planes show three node planes at most: a mode with four of them is counted with none or two, and stands in the
+table like that. Predicted modes are called by what the same planes show of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.prediction import PredictedMode
+from statorhom.diagnose.stage_model import StageModel
+from statorhom.model.convergence import ModeKey
+from statorhom.model.radial_profile import node_planes, radial_profile
+
+FAINT = 0.25  # of the largest amplitude, below which a plane may be taken for one near a node
+MIXED = 0.003  # relative: modes of one order that lie nearer to each other than this may be mixed in any way
+
+
+def counted_at_planes(
+    stage: StageModel, test: MeasuredTest, modes: Mapping[ModeKey, PredictedMode]
+) -> dict[ModeKey, PredictedMode]:
+    """The same modes with the counts of node planes that a test may find; as they are where its planes are unknown.
+
+    Parameters
+    ----------
+    stage, test : whose planes.
+    modes : predicted ones.
+    """
+    if test.shapes is None:
+        return dict(modes)
+    counts = _counts(stage, tuple(test.shapes.z_m.tolist()))
+    return {key: replace(mode, shown=counts.get(key, ())) for key, mode in modes.items()}
+
+
+def _counts(stage: StageModel, z_m: tuple[float, ...]) -> Mapping[ModeKey, tuple[int, ...]]:
+    """Of every named mode of the reference, the likeliest first."""
+    place = ("counted planes", z_m)
+    if place not in stage.kept_responses:
+        profile = radial_profile(stage.model.mesh, np.sort(z_m))
+        solved = stage.solve(stage.reference)
+        found = {}
+        for key, mode in stage.reference_keys.items():
+            problem, vectors = stage.ring.problems[mode.problem], solved.vectors[mode.problem]
+            shape = problem.space.expand(problem.basis @ vectors[:, [mode.column]])
+            found[key] = _possible(profile.orders(problem.space, shape))
+        stage.kept_responses[place] = {
+            key: (*counts, *range(len(z_m))) if _is_mixed(stage, key) else counts
+            for key, counts in found.items()
+        }
+    known: Mapping[ModeKey, tuple[int, ...]] = stage.kept_responses[place]
+    return known
+
+
+def _is_mixed(stage: StageModel, key: ModeKey) -> bool:
+    """Whether another count of node planes of the same order lies so near that what is measured is a sum of both."""
+    modes = stage.reference_keys
+    own = modes[key].frequency_hz
+    return any(
+        its[0] == key[0] and its[1] != key[1] and abs(np.log(mode.frequency_hz / own)) < MIXED
+        for its, mode in modes.items()
+    )
+
+
+def _possible(along: np.ndarray) -> tuple[int, ...]:
+    """Counts of a profile (planes, 1) with planes near a node left out, with faint ones left out, and with all."""
+    least = FAINT * float(np.abs(along).max())
+    counts = (
+        node_planes(along)[0],
+        node_planes(along, least)[0],
+        np.count_nonzero(np.diff(np.sign(along[:, 0]))),
+    )
+    return tuple(dict.fromkeys(int(n) for n in counts))
