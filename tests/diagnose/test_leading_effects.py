@@ -20,8 +20,10 @@ def base(log_evidence: float, objective: float = 1000.0, constants: int = 2) -> 
     return SimpleNamespace(free=fit, refit=fit, valleys=())
 
 
-def explanation(label: str, log_evidence: float) -> Any:
-    return SimpleNamespace(candidates=(SimpleNamespace(label=label),), log_evidence=log_evidence)
+def explanation(label: str, log_evidence: float, adequacy: float = 0.0) -> Any:
+    return SimpleNamespace(
+        candidates=(SimpleNamespace(label=label),), log_evidence=log_evidence, adequacy_but_one=adequacy
+    )
 
 
 def led(monkeypatch: pytest.MonkeyPatch, p_value: float, *steps: tuple[Any, list[Any]]) -> Any:
@@ -68,7 +70,13 @@ def test_a_deeper_valley_may_leave_nothing_to_explain(monkeypatch: pytest.Monkey
     assert found.chance(found.found[0]) == 0.5
 
 
-def sought_again(monkeypatch: pytest.MonkeyPatch, without_effect: float) -> Any:
+def test_what_leaves_nothing_needs_no_rivals_from_another_valley(monkeypatch: pytest.MonkeyPatch) -> None:
+    soft = explanation("soft", -53.0, 0.5)
+    found = led(monkeypatch, 1e-4, (base(-700.0), [soft]), (base(-99.7), [explanation("loose", -90.0)]))
+    assert found.found == (soft,)
+
+
+def sought_again(monkeypatch: pytest.MonkeyPatch, without_effect: float, adequacy: float = 0.0) -> Any:
     """The declared model from an explanation's constants, whose refit without the effect ends at an objective."""
     monkeypatch.setattr(again, "blank", lambda hypothesis, _: hypothesis)
     monkeypatch.setattr(
@@ -76,8 +84,8 @@ def sought_again(monkeypatch: pytest.MonkeyPatch, without_effect: float) -> Any:
     )
     monkeypatch.setattr(again, "nothing", lambda refit: SimpleNamespace(refit=refit))
     monkeypatch.setattr(again, "sharpened", lambda e: e)
-    fit = SimpleNamespace(hypothesis=SimpleNamespace(study=None), z=[1.0, 2.0, 3.0])
-    found: Any = [SimpleNamespace(refit=fit)]
+    fit = SimpleNamespace(hypothesis=SimpleNamespace(study=None), z=[1.0, 2.0, 3.0], objective=30.0)
+    found: Any = [SimpleNamespace(refit=fit, adequacy_but_one=adequacy)]
     monkeypatch.setattr(
         again,
         "baseline_at",
@@ -98,3 +106,10 @@ def test_the_declared_model_stays_where_an_explanation_needs_its_effect(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     assert sought_again(monkeypatch, 990.0) is None
+
+
+def test_an_explanation_that_is_beyond_doubt_asks_for_no_other_valley(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert sought_again(monkeypatch, 500.0, 0.5) is None
+    assert sought_again(monkeypatch, 100.0, 0.5) is not None

@@ -80,14 +80,18 @@ def test_effects_without_a_place_begin_where_the_scan_did() -> None:
 
 def test_rivals_of_the_favourite_are_sought_all_over_the_prior(monkeypatch: pytest.MonkeyPatch) -> None:
     """A favourite that explains enough ends the search for others that nobody has looked for."""
-    gains = {"soft": 700.0, "loose": 660.0, "slow": 140.0}
+    gains = {"soft": 700.0, "loose": 660.0, "loose too": 650.0, "slow": 140.0}
+
+    def start_of(name: str) -> Any:
+        own = SimpleNamespace(candidates=(SimpleNamespace(effect=name.split()[0]),))
+        return SimpleNamespace(name=name, rough=None, hypothesis=own)
 
     def candidate(name: str) -> Any:
-        return SimpleNamespace(gain=gains[name], candidate=SimpleNamespace(label=name))
+        return SimpleNamespace(gain=gains[name], candidate=SimpleNamespace(label=name, effect=name))
 
     signatures = [candidate(name) for name in gains]
     scan: Any = SimpleNamespace(of_every_candidate=lambda: signatures)
-    start = {name: SimpleNamespace(name=name, rough=None) for name in gains}
+    start = {name: start_of(name) for name in gains}
     monkeypatch.setattr(refit_starts, "is_poor", lambda _: True)
     monkeypatch.setattr(refit_starts, "price", lambda _: refit_starts.CHEAP)
     monkeypatch.setattr(refit_starts, "_starts_of", lambda _, __, s: [start[s.candidate.label]])
@@ -99,5 +103,6 @@ def test_rivals_of_the_favourite_are_sought_all_over_the_prior(monkeypatch: pyte
     assert [starts for _, starts in order] == [
         ["soft searched", start["soft"]],
         ["loose searched, narrowed", start["loose"]],
+        [start["loose too"]],
         [start["slow"]],
     ]

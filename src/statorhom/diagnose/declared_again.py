@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from statorhom.diagnose.baseline import Baseline, baseline_at
-from statorhom.diagnose.explanations import Explanation, blank, nothing, refitted
+from statorhom.diagnose.explanations import ADEQUATE, Explanation, blank, nothing, refitted
 from statorhom.diagnose.sharper import sharpened
 
 DEEPER = 20.0  # of the objective, that another valley must be deeper to be the declared model's
 LEADING = 3  # explanations whose constants are tried
+FAR = 150.0  # of the objective, by which an explanation that leaves nothing is beyond doubt in any valley
 
 
 def declared_again(base: Baseline, found: Sequence[Explanation]) -> Baseline | None:
@@ -28,6 +29,8 @@ def declared_again(base: Baseline, found: Sequence[Explanation]) -> Baseline | N
     again = [refitted(blank(e.refit.hypothesis, ()), e.refit.z[:n]) for e in found[:LEADING]]
     best = min((r for r in again if r is not None), key=lambda r: r.objective, default=None)
     if best is None or best.objective > base.refit.objective - DEEPER:
+        return None
+    if found[0].adequacy_but_one > ADEQUATE and best.objective > found[0].refit.objective + FAR:
         return None
     own = sharpened(nothing(best)).refit
     deeper = baseline_at(own.hypothesis.study, own.z, (base.free.z, *base.valleys))

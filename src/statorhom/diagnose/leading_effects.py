@@ -10,7 +10,7 @@ import numpy as np
 from statorhom.diagnose.approach import Approach
 from statorhom.diagnose.baseline import Baseline
 from statorhom.diagnose.decision import MAX_T_P, OVER_NOTHING
-from statorhom.diagnose.explanations import Explanation, nothing
+from statorhom.diagnose.explanations import ADEQUATE, Explanation, nothing
 from statorhom.diagnose.held_out_name import renames_alone
 from statorhom.diagnose.lacking_modes import lacks_modes
 from statorhom.diagnose.scan import Scan, scan
@@ -73,15 +73,24 @@ def leading_effects(
         deeper = approach.declared_again(leading.base, leading.found)
         if deeper is None:
             break
-        leading = _joined(leading, _beside(deeper, candidates, counts, seed))
+        # what leaves nothing to explain needs no rivals from another valley
+        explained = leading.found[0].adequacy_but_one > ADEQUATE
+        leading = _joined(leading, _beside(deeper, candidates, counts, seed, search=not explained))
     return leading
 
 
-def _beside(base: Baseline, candidates: Sequence[Candidate], counts: dict[str, int], seed: int) -> Leading:
+def _beside(
+    base: Baseline,
+    candidates: Sequence[Candidate],
+    counts: dict[str, int],
+    seed: int,
+    *,
+    search: bool = True,
+) -> Leading:
     signatures = scan(base.free, [c for c in candidates if c.parameters], seed)
     discrete = [c for c in candidates if not c.parameters]
     begun = Leading(base, signatures, lacks_modes(base.free), ())
-    if begun.misfit_is_real:
+    if begun.misfit_is_real and search:
         found = single_effects(base.free, signatures, discrete, counts)
     else:
         # nothing but another name can be found any more

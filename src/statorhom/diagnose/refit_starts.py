@@ -25,7 +25,8 @@ CHEAP, MIDDLING, DEAR = range(3)  # prices
 AMOUNTS = 0.3, 8.0  # that a start's magnitude is multiplied by
 FIRST = 4  # cheap candidates that are followed whatever wide valleys say of them
 PART = 0.2  # of the best one's gain in wide valleys, from which on others are
-ALIKE = 0.5  # of the favourite's gain, from which on another one is sought all over the prior too
+# of the favourite's gain, from which on other effects are sought all over the prior too; how many
+ALIKE, RIVALS = 0.5, 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,12 +78,21 @@ def in_order(base: Refit, found: Scan, favourites: Sequence[Signature]) -> Itera
         (s.gain, _starts_of(base, found, s)) for s in found.of_every_candidate() if s not in (first, *rest)
     ]
     cheap = [trial for trial in (*trials, *others) if price(trial) == CHEAP]
-    alike = [trial for trial in cheap if trial[0] >= ALIKE * first.gain]
+    alike = _of_different_effects([trial for trial in cheap if trial[0] >= ALIKE * first.gain], first)
     yield from ((gain, [*_narrowed(starts[0]), *starts]) for gain, starts in alike)
     cheap = [trial for trial in cheap if trial not in alike]
     widest = [(gain, _with_rough(base, starts)) for gain, starts in cheap]
     yield from _promising(base, widest)
     yield from sorted((trial for trial in trials if price(trial) > CHEAP), key=price)
+
+
+def _of_different_effects(trials: Sequence[Trial], first: Signature) -> list[Trial]:
+    """The first trial of each effect but the favourite's, as many as are worth it."""
+    found: dict[str, Trial] = {}
+    for trial in trials:
+        found.setdefault(trial[1][0].hypothesis.candidates[-1].effect, trial)
+    found.pop(first.candidate.effect, None)
+    return list(found.values())[:RIVALS]
 
 
 def price(trial: Trial) -> int:
