@@ -1,4 +1,4 @@
-"""Which refits are given up early: all near an optimum, the dear ones of a poor model."""
+"""Which refits are given up early: contacts near an optimum, all that is dear beside a poor model."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose import single_effects as module
-from statorhom.diagnose.refit_starts import CHEAP, MIDDLING
+from statorhom.diagnose.refit_starts import CHEAP, DEAR, MIDDLING
 from statorhom.diagnose.single_effects import refits
 
 LIMIT = 90.0
@@ -31,8 +31,8 @@ def worths(monkeypatch: pytest.MonkeyPatch, misfit: float, *prices: int) -> list
     return seen
 
 
-def test_near_an_optimum_the_limit_is_everybody_s(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert worths(monkeypatch, 60.0, CHEAP, MIDDLING) == [LIMIT, LIMIT]
+def test_near_an_optimum_contacts_alone_are_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert worths(monkeypatch, 60.0, CHEAP, MIDDLING, DEAR) == [np.inf, np.inf, LIMIT]
 
 
 def test_of_a_poor_model_cheap_effects_are_followed_through_other_valleys(

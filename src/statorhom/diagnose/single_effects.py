@@ -24,6 +24,7 @@ from statorhom.diagnose.mislabelled import worth_trying
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.refit_starts import (
     CHEAP,
+    MIDDLING,
     STARTS,
     WORTH,
     Start,
@@ -71,13 +72,15 @@ def refits(
     base : what the trials add to.
     trials : in the order in which they are tried.
     counts : as for `single_effects`.
-    limit : objective above which a refit matters to nobody; of a poor model cheap ones are followed whatever they reach
-        at once, for other valleys may be better.
+    limit : objective above which a refit matters to nobody; what costs little beside a poor model, and all but contacts
+        beside a good one, is followed whatever it reaches at once, for other valleys may be better.
     """
     explanations: list[Explanation] = []
     for gain, starts in trials:
-        dear = price((gain, starts)) > CHEAP
-        worth = min(_worth(explanations), limit if dear or not is_poor(base) else np.inf)
+        cost = price((gain, starts))
+        dear = cost > CHEAP
+        limited = dear if is_poor(base) else cost > MIDDLING
+        worth = min(_worth(explanations), limit if limited else np.inf)
         if gain < WORTH and np.isfinite(worth):
             continue  # it promises nothing, and nothing is left to explain
         if dear:
