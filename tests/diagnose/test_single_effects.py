@@ -1,4 +1,4 @@
-"""Which refits are given up early: contacts near an optimum, all that is dear beside a poor model."""
+"""Which refits are given up early: what has a place near an optimum, all that is dear beside a poor model."""
 
 from __future__ import annotations
 
@@ -9,13 +9,15 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose import single_effects as module
-from statorhom.diagnose.refit_starts import CHEAP, DEAR, MIDDLING
+from statorhom.diagnose.refit_starts import CHEAP, MIDDLING
 from statorhom.diagnose.single_effects import refits
 
 LIMIT = 90.0
 
 
-def worths(monkeypatch: pytest.MonkeyPatch, misfit: float, *prices: int) -> list[float]:
+def worths(
+    monkeypatch: pytest.MonkeyPatch, misfit: float, *prices: int, place: str = "nowhere"
+) -> list[float]:
     """Objectives above which the trials of these prices matter to nobody."""
     seen: list[float] = []
 
@@ -23,16 +25,18 @@ def worths(monkeypatch: pytest.MonkeyPatch, misfit: float, *prices: int) -> list
         assert far == (misfit > 100.0)
         seen.append(worth)
 
-    monkeypatch.setattr(module, "price", lambda trial: trial[1])
+    monkeypatch.setattr(module, "price", lambda trial: trial[1][0])
+    monkeypatch.setattr(module, "_has_place", lambda _: place == "somewhere")
     monkeypatch.setattr(module, "_best_refit", best_refit)
     base: Any = SimpleNamespace(misfit=misfit, objective=misfit, jacobian=np.zeros((30, 1)))
-    trials: Any = [(50.0, price) for price in prices]
+    trials: Any = [(50.0, [price]) for price in prices]
     assert refits(base, trials, {}, LIMIT) == []
     return seen
 
 
-def test_near_an_optimum_contacts_alone_are_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert worths(monkeypatch, 60.0, CHEAP, MIDDLING, DEAR) == [np.inf, np.inf, LIMIT]
+def test_near_an_optimum_what_has_a_place_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert worths(monkeypatch, 60.0, CHEAP, MIDDLING, MIDDLING) == [np.inf] * 3
+    assert worths(monkeypatch, 60.0, CHEAP, MIDDLING, place="somewhere") == [LIMIT, LIMIT]
 
 
 def test_of_a_poor_model_cheap_effects_are_followed_through_other_valleys(

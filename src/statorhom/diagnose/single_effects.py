@@ -24,7 +24,7 @@ from statorhom.diagnose.mislabelled import worth_trying
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.refit_starts import (
     CHEAP,
-    MIDDLING,
+    DEAR,
     STARTS,
     WORTH,
     Start,
@@ -72,14 +72,13 @@ def refits(
     base : what the trials add to.
     trials : in the order in which they are tried.
     counts : as for `single_effects`.
-    limit : objective above which a refit matters to nobody; what costs little beside a poor model, and all but contacts
-        beside a good one, is followed whatever it reaches at once, for other valleys may be better.
+    limit : objective above which a refit matters to nobody; what costs little beside a poor model, and what has no
+        place beside a good one, is followed whatever it reaches at once, for other valleys may be better.
     """
     explanations: list[Explanation] = []
     for gain, starts in trials:
-        cost = price((gain, starts))
-        dear = cost > CHEAP
-        limited = dear if is_poor(base) else cost > MIDDLING
+        dear = price((gain, starts)) > CHEAP
+        limited = dear if is_poor(base) else _has_place(starts[0])
         worth = min(_worth(explanations), limit if limited else np.inf)
         if gain < WORTH and np.isfinite(worth):
             continue  # it promises nothing, and nothing is left to explain
@@ -89,6 +88,11 @@ def refits(
         if best is not None:
             explanations.append(explained(best, counts))
     return explanations
+
+
+def _has_place(start: Start) -> bool:
+    """Whether the last effect is somewhere, or loses contact somewhere: its refits take many solutions."""
+    return price((0.0, [start])) == DEAR or any(p.located for p in start.hypothesis.candidates[-1].parameters)
 
 
 def new_names(
