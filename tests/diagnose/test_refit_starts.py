@@ -83,11 +83,13 @@ def test_rivals_of_the_favourite_are_sought_all_over_the_prior(monkeypatch: pyte
     gains = {"soft": 700.0, "loose": 660.0, "loose too": 650.0, "slow": 140.0}
 
     def start_of(name: str) -> Any:
-        own = SimpleNamespace(candidates=(SimpleNamespace(effect=name.split()[0]),))
+        own = SimpleNamespace(candidates=(SimpleNamespace(effect=name.split()[0], stage="wound"),))
         return SimpleNamespace(name=name, rough=None, hypothesis=own)
 
     def candidate(name: str) -> Any:
-        return SimpleNamespace(gain=gains[name], candidate=SimpleNamespace(label=name, effect=name))
+        return SimpleNamespace(
+            gain=gains[name], candidate=SimpleNamespace(label=name, effect=name, stage="wound")
+        )
 
     signatures = [candidate(name) for name in gains]
     scan: Any = SimpleNamespace(of_every_candidate=lambda: signatures)

@@ -13,6 +13,7 @@ from scipy.stats import chi2
 from typing_extensions import TypeVar
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
+from statorhom.diagnose.features import Feature
 from statorhom.diagnose.refit import H, Refit, refit
 from statorhom.errors import StatorhomError
 from statorhom.model.convergence import ModeKey
@@ -66,8 +67,11 @@ class Explanation(Generic[H]):
 
     @property
     def adequacy_but_one(self) -> float:
-        """The same without the worst row, against the chance of such a rest: one gross error is no missing physics."""
-        rows, worst = len(self._residuals[0]), float(np.max(self._residuals[0] ** 2, initial=0.0))
+        """The same without the worst row, against the chance of such a rest: one gross error is no missing physics.
+
+        An impossible density is no row of a table that somebody has mistyped.
+        """
+        rows, worst = len(self._residuals[0]), float(np.max(self._of_modes**2, initial=0.0))
         if rows < ROWS:
             return self.adequacy
         draws = np.random.default_rng(0).chisquare(1.0, (DRAWS, rows))
@@ -81,10 +85,20 @@ class Explanation(Generic[H]):
         unusual = float(np.sum(r.hypothesis.prior_weights[effect] * r.z[effect] ** 2))
         return r.objective - r.hypothesis.missed - unusual - float(np.sum(self._residuals[1] ** 2))
 
+    @property
+    def _of_modes(self) -> np.ndarray:
+        """Residuals that count, without those of densities."""
+        found = self._features
+        return np.array([f.residual for f in found if f.kind not in ("loss", "shape", "density")])
+
+    @cached_property
+    def _features(self) -> Sequence[Feature]:
+        return self.refit.hypothesis.features(self.refit.z)
+
     @cached_property
     def _residuals(self) -> tuple[np.ndarray, np.ndarray]:
         """Those that count, and those of loss factors and shapes: many and uncertain, they would hide a frequency."""
-        found = self.refit.hypothesis.features(self.refit.z)
+        found = self._features
         lossy = np.array([f.kind in ("loss", "shape") for f in found], dtype=bool)
         residuals = np.array([f.residual for f in found])
         return residuals[~lossy], residuals[lossy]

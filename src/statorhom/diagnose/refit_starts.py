@@ -87,11 +87,12 @@ def in_order(base: Refit, found: Scan, favourites: Sequence[Signature]) -> Itera
 
 
 def _of_different_effects(trials: Sequence[Trial], first: Signature) -> list[Trial]:
-    """The first trial of each effect but the favourite's, as many as are worth it."""
-    found: dict[str, Trial] = {}
+    """The first trial of each step's effect but the favourite's, as many as are worth it."""
+    found: dict[tuple[str, str], Trial] = {}
     for trial in trials:
-        found.setdefault(trial[1][0].hypothesis.candidates[-1].effect, trial)
-    found.pop(first.candidate.effect, None)
+        candidate = trial[1][0].hypothesis.candidates[-1]
+        found.setdefault((candidate.effect, candidate.stage), trial)
+    found.pop((first.candidate.effect, first.candidate.stage), None)
     return list(found.values())[:RIVALS]
 
 
