@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from statorhom.diagnose.recorded import _split
+from statorhom.diagnose.recorded import _split, overlap_sd
 
 FREQUENCY_HZ = 1500.0
 SQUARE = (2 * np.pi * FREQUENCY_HZ) ** 2
@@ -17,7 +17,8 @@ SQUARE = (2 * np.pi * FREQUENCY_HZ) ** 2
 def doublet(*shifts: np.ndarray | None) -> Any:
     """Two modes of one frequency with shifts over the points, and their relative split of 1e-3 ± 1e-5."""
     modes = [
-        SimpleNamespace(mode=SimpleNamespace(frequency_hz=FREQUENCY_HZ, shift=shift)) for shift in shifts
+        SimpleNamespace(mode=SimpleNamespace(frequency_hz=FREQUENCY_HZ, loss_factor=0.0, shift=shift))
+        for shift in shifts
     ]
     pair = SimpleNamespace(
         lower=0, upper=1, split=1e-3 * SQUARE, split_covariance=np.eye(2) * (1e-5 * SQUARE) ** 2
@@ -41,3 +42,9 @@ def test_the_split_of_two_modes_that_move_is_known_no_better_than_they_move(shif
     found = _split(*doublet(*shifts))
     assert abs(found.relative) == pytest.approx(1e-3)
     assert found.sd == pytest.approx(sd)
+
+
+def test_broad_resonances_hide_others_and_sharp_ones_do_not() -> None:
+    assert 1e-3 < overlap_sd(0.08) < 7e-3
+    assert overlap_sd(0.01) < 1e-5
+    assert overlap_sd(None) == 0.0

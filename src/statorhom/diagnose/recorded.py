@@ -35,7 +35,10 @@ from statorhom.study.modal_table import MeasuredMode, ModalTable
 from statorhom.study.modal_tests import ModalTestKeys
 from statorhom.study.study import StudyFiles
 
-FOLDER, FORMAT = "recordings", 12  # a change of method makes what is kept stale
+FOLDER, FORMAT = "recordings", 13  # a change of method makes what is kept stale
+# A resonance of a loss factor of 8 % has others under its flanks: recordings of a known stator then miss frequencies
+# by 0.1 to 0.7 %, whatever the noise; at 5 % they hardly do.
+OVERLAP = 8.0
 
 
 @dataclass(frozen=True)
@@ -134,6 +137,9 @@ def from_recording(measured: MeasuredModes, stage: int, name: str, support: str,
             row,
             frequency_hz=row.frequency_hz * moved.get(row.label, 1.0),
             axial=None if i in doubtful else row.axial,
+            frequency_sd_hz=float(
+                np.hypot(row.frequency_sd_hz or 0.0, overlap_sd(row.loss_factor) * row.frequency_hz)
+            ),
         )
         for i, row in enumerate(modal_table(measured, path).modes)
     ]
@@ -157,7 +163,14 @@ def _split(measured: MeasuredModes, d: DoubletPair) -> MeasuredSplit:
     sd = float(np.sqrt(np.trace(d.split_covariance) / 2)) / mean
     # of two modes that a sensor moves a point sees one: what their poles differ by is known no better than they move
     moved = min(_moved(mode) for mode in modes)
-    return MeasuredSplit(str(d.lower + 1), str(d.upper + 1), d.split / mean, float(np.hypot(sd, 2.0 * moved)))
+    broad = overlap_sd(max(mode.loss_factor for mode in modes))
+    known = float(np.linalg.norm([sd, 2.0 * moved, 2.0 * broad]))
+    return MeasuredSplit(str(d.lower + 1), str(d.upper + 1), d.split / mean, known)
+
+
+def overlap_sd(loss_factor: float | None) -> float:
+    """Relative standard deviation of a frequency by the modes that nobody finds between resonances as broad as this."""
+    return OVERLAP * (loss_factor or 0.0) ** 3
 
 
 def _moved(mode: ExtractedMode) -> float:
