@@ -21,7 +21,8 @@ from statorhom.diagnose.prediction import (
 )
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
-from statorhom.diagnose.supported import Partners, SupportedReference
+from statorhom.diagnose.supported import SupportedReference
+from statorhom.diagnose.supported_partners import Partners
 from statorhom.model.convergence import ModeKey
 from statorhom.physics.action import Action
 from statorhom.study.modal_table import MeasuredMode

@@ -25,7 +25,8 @@ from statorhom.diagnose.prediction import (
 )
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
-from statorhom.diagnose.supported import Partners, supported_test
+from statorhom.diagnose.supported import supported_test
+from statorhom.diagnose.supported_partners import Partners
 from statorhom.errors import StatorhomError
 from statorhom.model.affine import Materials
 from statorhom.model.convergence import ModeKey

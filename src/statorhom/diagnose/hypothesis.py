@@ -45,13 +45,11 @@ from statorhom.diagnose.sensor_response import SensorResponse, sensor_response
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.diagnose.supported import (
-    Partners,
-    partners,
     predicted_logs,
-    supported_features,
     supported_test,
     without_attachments,
 )
+from statorhom.diagnose.supported_partners import Partners, partners, supported_features
 from statorhom.model.convergence import ModeKey
 from statorhom.physics.action import Action
 from statorhom.study.modal_table import MeasuredMode
