@@ -24,6 +24,7 @@ GOOD = Evidence(
     held_out=FALLS,
     adequacy=0.4,
     nothing_adequacy=1e-9,
+    nothing_but_one=1e-9,
     within=True,
     stability=1.0,
 )
@@ -39,6 +40,8 @@ def test_all_rules_met_names() -> None:
         ({"p_value": 0.02}, "none"),
         ({"over_nothing": 4.0}, "unknown"),
         ({"over_nothing": 4.0, "nothing_adequacy": 0.3}, "none"),
+        ({"over_nothing": 4.0, "nothing_but_one": 0.3}, "none"),
+        ({"nothing_but_one": 0.3}, "named"),
         ({"over_others": 2.0}, "ambiguous"),
         ({"held_out": None}, "ambiguous"),
         ({"held_out": replace(FALLS, after=FALLS.before)}, "unknown"),

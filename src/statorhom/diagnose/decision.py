@@ -35,7 +35,7 @@ class Evidence:
     over_nothing, over_others : log evidence of the best explanation over "nothing" and over the next one.
     held_out : errors on modes that were not seen; None where there were too few.
     adequacy : posterior-predictive p of the best explanation, one gross error aside.
-    nothing_adequacy : and of the declared model, with every row.
+    nothing_adequacy, nothing_but_one : and of the declared model, with every row and without the worst.
     within : whether all magnitudes lie inside their physical ranges, off the bounds.
     stability : share of resamplings with the same winner.
     """
@@ -47,6 +47,7 @@ class Evidence:
     held_out: HeldOut | None
     adequacy: float
     nothing_adequacy: float
+    nothing_but_one: float
     within: bool
     stability: float
 
@@ -87,7 +88,9 @@ class Evidence:
 def decide(evidence: Evidence) -> Verdict:
     """The verdict; several effects are named as alternatives only where there are several."""
     if not evidence.detected:
-        return "none" if evidence.nothing_adequacy > ADEQUATE or evidence.by_chance else "unknown"
+        # one gross row that no effect explains is a slip of whoever measured, or of the extraction
+        enough = max(evidence.nothing_adequacy, evidence.nothing_but_one) > ADEQUATE
+        return "none" if enough or evidence.by_chance else "unknown"
     if not evidence.sound or not (evidence.predicts or evidence.undecided):
         return "unknown" if evidence.nothing_adequacy <= ADEQUATE else "none"
     if not (evidence.predicts or evidence.evident):

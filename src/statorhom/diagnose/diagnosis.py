@@ -175,6 +175,7 @@ def _evidence(
         held_out=unseen,
         adequacy=best.adequacy_but_one,
         nothing_adequacy=none.adequacy,
+        nothing_but_one=none.adequacy_but_one,
         within=within_bounds(best),
         stability=stability([common, none, *rest[: COMPARED - 2]], seed),
     )
