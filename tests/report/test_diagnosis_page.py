@@ -12,7 +12,7 @@ import pytest
 
 from statorhom.errors import ResultsError
 from statorhom.report import write_report
-from statorhom.report.diagnosis.fingerprint_figure import misses
+from statorhom.report.diagnosis.fingerprint_figure import fingerprint_figure, misses
 from statorhom.report.diagnosis.page import diagnosis_document
 from statorhom.report.diagnosis.words import figure, quantity, sizes_words
 from statorhom.report.html import render_html
@@ -151,3 +151,17 @@ def test_features_of_one_kind_count_together() -> None:
     }
     (one,) = misses([FeatureRow(before=3.0, **common), FeatureRow(before=4.0, **common)])  # type: ignore[arg-type]
     assert one.before == pytest.approx((12.5) ** 0.5) and one.after == 0.0
+
+
+def test_what_is_met_before_and_after_takes_no_room() -> None:
+    def row(mode: tuple[int, int], kind: str, before: float) -> FeatureRow:
+        return FeatureRow(
+            stage="s", test="free", mode=mode, kind=kind, measured=0.0, sd=1.0, before=before, after=0.01
+        )  # type: ignore[arg-type]
+
+    rows = [row((2, 0), "frequency", 4.0), row((2, 1), "frequency", 0.5), row((2, 0), "loss", 0.02)]
+    picture = fingerprint_figure(rows, changed=True)
+    assert "Left out: 1 that" in str(picture.caption)
+    assert "Left out" not in str(fingerprint_figure(rows[:2], changed=True).caption)
+    # where nothing is missed, all is shown
+    assert "Left out" not in str(fingerprint_figure(rows[2:], changed=True).caption)

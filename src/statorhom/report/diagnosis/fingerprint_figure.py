@@ -14,6 +14,7 @@ from statorhom.results.diagnosis import FeatureRow
 
 SHORT = {"frequency": "frequency", "split": "two lines", "shift": "place to place", "damping": "damping"}
 MOST = 24
+MET = 0.1  # what is met so well before and after is left out
 TICKS = (0, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)
 
 
@@ -41,7 +42,8 @@ def misses(rows: Sequence[FeatureRow]) -> list[Miss]:
 
 def fingerprint_figure(rows: Sequence[FeatureRow], changed: bool) -> Picture:
     """Bars in standard deviations; `changed`: whether there is an explanation to compare with."""
-    every = misses(rows)
+    found = misses(rows)
+    every = [m for m in found if max(m.before, m.after) > MET] or found
     largest = sorted(every, key=lambda m: -max(m.before, m.after))[:MOST]
     shown = [m for m in every if m in largest]
     figure = new_figure(170, 16 + 5.2 * max(len(shown), 3))
@@ -78,7 +80,14 @@ def fingerprint_figure(rows: Sequence[FeatureRow], changed: bool) -> Picture:
         " “Two lines”: where a mode’s two lines lie apart and at which angle they stand; on a perfectly even stator "
         "they would coincide."
     )
-    caption = f"Grey: no more than chance.{lines if any(m.kind == 'split' for m in shown) else ''}{left}"
+    met = len(found) - len(every)
+    less = (
+        f" Left out: {met} that the declared model and the explanation both meet." if met and changed else ""
+    )
+    less = less or (f" Left out: {met} that are met." if met else "")
+    caption = (
+        f"Grey: no more than chance.{lines if any(m.kind == 'split' for m in shown) else ''}{left}{less}"
+    )
     alt = "how far the model misses every measured feature, before and after the effect is modelled"
     return Picture(svg(figure), "svg", 170.0, alt, text(caption))
 
