@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -21,6 +21,11 @@ RATIO = Constant("stack:lamination.nu_p", 0.3, 2.0, 0.0, 5.0)
 class Hypothetical:
     study: Any
     held: Any = None
+    changes: Any = None
+    candidates: tuple[Any, ...] = ()
+
+    def actions(self, _z: np.ndarray) -> tuple[Any, ...]:
+        return (SimpleNamespace(changes=self.changes),)
 
 
 def found_at(z: np.ndarray, objective: float) -> Any:
@@ -45,3 +50,22 @@ def test_a_valley_on_the_other_side_is_taken_where_it_is_deeper(
     # the one that is vague, both sides, and nothing else moved
     assert [s[1] for s in starts] == [-sharper.ASIDE, sharper.ASIDE]
     assert all(s[0] == 0.2 and s[2] == 0.1 for s in starts)
+
+
+def test_what_breaks_the_symmetry_is_solved_on_the_other_side(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Splits follow an axial modulus only if the reference does: a refit at the old one would not find it."""
+    references = []
+
+    def broken(z: np.ndarray, objective: float) -> Any:
+        refit = found_at(z, objective)
+        refit.hypothesis = replace(refit.hypothesis, changes=lambda *_: ())
+        return refit
+
+    def sharpened(explanation: Any) -> Any:
+        references.append(explanation.refit.z[1])
+        return replace(explanation, refit=broken(explanation.refit.z, 20.0 if references[-1] > 0 else 90.0))
+
+    monkeypatch.setattr(sharper, "evaluated", lambda _, z: broken(z, 300.0))
+    monkeypatch.setattr(sharper, "_sharpened", sharpened)
+    assert sharper._on_other_sides(broken(np.array([0.2, -0.7, 0.1]), 100.0)).objective == 20.0
+    assert references == [-sharper.ASIDE, sharper.ASIDE]

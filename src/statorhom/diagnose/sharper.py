@@ -14,8 +14,9 @@ import numpy as np
 
 from statorhom.diagnose.explanations import ADEQUATE, Explanation, explained, refitted, through_wide_valleys
 from statorhom.diagnose.prediction import acted_materials
-from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.refit import Refit, evaluated
 from statorhom.diagnose.stage_model import mesh_error, with_reference
+from statorhom.errors import StatorhomError
 
 MOST = 3  # explanations that get models of their own before a second effect is sought
 ROUNDS = 3  # models of one explanation
@@ -105,7 +106,19 @@ def _on_other_sides(best: Refit) -> Refit:
         for side in (-ASIDE, ASIDE):
             start = best.z.copy()
             start[i] = side
-            again = refitted(replace(best.hypothesis, held=None), start, worth=best.objective)
+            again = _from_there(best, start)
             if again is not None and again.objective < best.objective - SETTLED:
                 best = again
     return best
+
+
+def _from_there(best: Refit, start: np.ndarray) -> Refit | None:
+    """The refit from other constants; what breaks the symmetry is solved there, for it does not move with them."""
+    blank = replace(best.hypothesis, held=None)
+    if not any(action.changes for action in blank.actions(start)):
+        return refitted(blank, start, worth=best.objective)
+    try:
+        there = evaluated(blank, start)
+    except (StatorhomError, KeyError):
+        return None
+    return _sharpened(Explanation(best.hypothesis.candidates, there, 0.0)).refit
