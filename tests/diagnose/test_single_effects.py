@@ -21,8 +21,8 @@ def worths(
     """Objectives above which the trials of these prices matter to nobody."""
     seen: list[float] = []
 
-    def best_refit(_: Any, worth: float, far: bool) -> None:
-        assert far == (misfit > 100.0)
+    def best_refit(_: Any, worth: float, far: bool, known: float) -> None:
+        assert far == (misfit > 100.0) and known == misfit
         seen.append(worth)
 
     monkeypatch.setattr(module, "price", lambda trial: trial[1][0])
@@ -43,3 +43,26 @@ def test_of_a_poor_model_cheap_effects_are_followed_through_other_valleys(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     assert worths(monkeypatch, 900.0, CHEAP, MIDDLING) == [np.inf, LIMIT]
+
+
+def tried(monkeypatch: pytest.MonkeyPatch, straight: float, known: float) -> tuple[float, list[str]]:
+    """Objective of the best refit, and the ways that were taken, where wide valleys lead to 30."""
+    ways: list[str] = []
+
+    def refit(way: str, objective: float) -> Any:
+        ways.append(way)
+        return SimpleNamespace(objective=objective)
+
+    monkeypatch.setattr(module, "price", lambda _: MIDDLING)
+    monkeypatch.setattr(module, "is_poor", lambda _: False)
+    monkeypatch.setattr(module, "refitted", lambda *_: refit("straight", straight))
+    monkeypatch.setattr(module, "_through", lambda _: refit("wide", 30.0))
+    monkeypatch.setattr(module, "explained", lambda *_: SimpleNamespace(adequacy_but_one=0.5))
+    start: Any = SimpleNamespace(hypothesis=None, z=None)
+    best: Any = module._best_refit([start], np.inf, far=False, known=known)
+    return best.objective, ways
+
+
+def test_what_leaves_more_than_the_declared_model_is_no_optimum(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert tried(monkeypatch, 450.0, known=180.0) == (30.0, ["straight", "wide"])
+    assert tried(monkeypatch, 150.0, known=180.0) == (150.0, ["straight"])

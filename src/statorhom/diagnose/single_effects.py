@@ -84,7 +84,7 @@ def refits(
             continue  # it promises nothing, and nothing is left to explain
         if dear:
             worth = min(worth, _leading(base, explanations))
-        best = _best_refit(starts, worth, far=is_poor(base))
+        best = _best_refit(starts, worth, far=is_poor(base), known=base.objective)
         if best is not None:
             explanations.append(explained(best, counts))
     return explanations
@@ -125,7 +125,7 @@ def _leading(base: Refit, explanations: Sequence[Explanation]) -> float:
     return best + NEAR if best < MOSTLY * base.objective else np.inf
 
 
-def _best_refit(starts: Sequence[Start], worth: float, *, far: bool) -> Refit | None:
+def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: float = np.inf) -> Refit | None:
     """The best optimum of one candidate.
 
     Parameters
@@ -133,11 +133,13 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool) -> Refit | 
     starts : from where.
     worth : objective above which it does not matter; then the nearest optimum is enough.
     far : whether the declared model is so far off that wide valleys come first.
+    known : its objective: an effect that may be absent leaves no more, and what does is no optimum.
     """
     found: list[Refit] = []
     cheap = far and np.isinf(worth) and price((0.0, list(starts))) == CHEAP
     for start in starts:
-        if found and not cheap and explained(found[-1], {}).adequacy_but_one > ADEQUATE:
+        less = bool(found) and found[-1].objective <= known
+        if less and not cheap and explained(found[-1], {}).adequacy_but_one > ADEQUATE:
             break
         if np.isfinite(worth):
             found += _kept(_rival(start, worth))
@@ -145,7 +147,7 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool) -> Refit | 
         for wide in (True, False) if far else (False, True):
             found += _kept(_through(start) if wide else refitted(start.hypothesis, start.z))
             # on the way through wide valleys constants may leave the valley where they belonged all the time
-            if found and not is_poor(found[-1]) and not cheap:
+            if found and not is_poor(found[-1]) and not cheap and found[-1].objective <= known:
                 break
     best = min(found, key=_objective, default=None)
     if best is not None and cheap:
