@@ -24,6 +24,7 @@ _H = TypeVar("_H", bound=AnyHypothesis)
 COARSE = 0.03  # discrepancy with which wide valleys are found
 NARROWING = (0.01, 0.003)
 ADEQUATE = 0.01  # chance of a misfit above which nothing is left to explain
+UNCERTAIN = ("loss", "shape")  # kinds of features: many and uncertain, they would hide a frequency
 ROWS = 8  # of which one may be grossly wrong
 DRAWS = 4000
 PAIR_GAIN = 5.0  # log evidence that a second effect must add
@@ -89,7 +90,7 @@ class Explanation(Generic[H]):
     def _of_modes(self) -> np.ndarray:
         """Residuals that count, without those of densities."""
         found = self._features
-        return np.array([f.residual for f in found if f.kind not in ("loss", "shape", "density")])
+        return np.array([f.residual for f in found if f.kind not in (*UNCERTAIN, "density")])
 
     @cached_property
     def _features(self) -> Sequence[Feature]:
@@ -97,9 +98,9 @@ class Explanation(Generic[H]):
 
     @cached_property
     def _residuals(self) -> tuple[np.ndarray, np.ndarray]:
-        """Those that count, and those of loss factors and shapes: many and uncertain, they would hide a frequency."""
+        """Those that count, and those of uncertain kinds."""
         found = self._features
-        lossy = np.array([f.kind in ("loss", "shape") for f in found], dtype=bool)
+        lossy = np.array([f.kind in UNCERTAIN for f in found], dtype=bool)
         residuals = np.array([f.residual for f in found])
         return residuals[~lossy], residuals[lossy]
 

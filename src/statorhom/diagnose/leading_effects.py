@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -95,7 +95,7 @@ def _beside(
     else:
         # nothing but another name can be found any more
         found = new_names(base.free, discrete, counts)
-    return Leading(base, signatures, begun.unpaired, tuple(found))
+    return replace(begun, found=tuple(found))
 
 
 def _joined(before: Leading, now: Leading) -> Leading:

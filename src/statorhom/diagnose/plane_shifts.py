@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from statorhom.diagnose.features import SHIFT_OWN
 from statorhom.diagnose.measured import PlaneShifts
 from statorhom.extraction.local_poles import local_poles
 from statorhom.extraction.measured_modes import MeasuredModes, NamedMode
@@ -24,9 +25,9 @@ LARGEST = 0.03  # shifts beyond are of another mode
 # off they are a neighbour's
 FOREIGN = 0.5
 FLANKS = 2.0  # half-power bandwidths
-# What a mass alone does not do to a pole: absolute, relative; mean square in standard deviations from which on
-# something else has moved what looks like the pole.
-OWN_SHIFT, OWN_PART, NO_SENSOR = 5e-5, 0.1, 5.0
+# What a mass alone does not do to a pole, beside `SHIFT_OWN`: a part of the shift; mean square in standard deviations
+# from which on something else has moved what looks like the pole.
+OWN_PART, NO_SENSOR = 0.1, 5.0
 
 
 def plane_shifts(measured: MeasuredModes) -> tuple[PlaneShifts, ...]:
@@ -82,7 +83,7 @@ def _may_be_a_sensors(shifts: PlaneShifts, one: NamedMode) -> bool:
     energy = (along[places] / np.nanmax(np.abs(along))) ** 2
     if not np.isfinite(energy).all():
         return True
-    weight = 1.0 / (shifts.sd**2 + OWN_SHIFT**2 + (OWN_PART * shifts.shift) ** 2)
+    weight = 1.0 / (shifts.sd**2 + SHIFT_OWN**2 + (OWN_PART * shifts.shift) ** 2)
     away = energy - float(weight @ energy / weight.sum())
     size = float(weight @ away**2)
     slope = min(0.0, float(weight @ (away * shifts.shift)) / size) if size > 0.0 else 0.0

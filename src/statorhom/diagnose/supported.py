@@ -154,7 +154,8 @@ def _solved(
     stage: StageModel, test: MeasuredTest, keys: SupportKeys, more: Sequence[Change], shapes: bool
 ) -> SupportedReference | None:
     mesh = stage.model.mesh
-    support = support_on(mesh, elastic_keys(keys))
+    keys = elastic_keys(keys)
+    support = support_on(mesh, keys)
     if support.ends is not None or support.points.stiffness is None:
         return None
     free = _free_basis(stage, test)
@@ -163,7 +164,7 @@ def _solved(
     shares = {key: _share(modes, place) for key, place in free.columns.items()}
     held = _held_share(modes)
     slopes = _shapes(stage, test, keys).slopes(modes, held, stage.reference)
-    own = _own_error(elastic_keys(keys), held)
+    own = _own_error(keys, held)
     if not shapes:
         return SupportedReference(log_f, shares, held, slopes, own)
     if test.shapes is None:

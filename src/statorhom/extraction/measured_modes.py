@@ -76,8 +76,8 @@ class NamedMode:
     @property
     def order_share(self) -> float:
         """Part of the radial motion that its strongest order has; 0 where nothing moves like that."""
-        radial = self.name is not None and self.name.name is not None and self.name.name.kind == "radial"
-        return self.name.name.share if radial and self.name and self.name.name else 0.0
+        name = None if self.name is None else self.name.name
+        return name.share if name is not None and name.kind == "radial" else 0.0
 
     @property
     def axial(self) -> int | None:

@@ -93,6 +93,12 @@ class Modes:
         return len(self.poles)
 
     @property
+    def loss_factors(self) -> FloatArray:
+        """Half-power bandwidths over the frequencies, shape (modes,)."""
+        loss: FloatArray = self.poles.imag / self.poles.real
+        return loss
+
+    @property
     def moving(self) -> npt.NDArray[np.bool_]:
         """Modes whose poles differ from set-up to set-up, shape (modes,)."""
         moving: npt.NDArray[np.bool_] = np.any(self.shift != 0, axis=(0, 2))

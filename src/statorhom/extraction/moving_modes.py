@@ -59,8 +59,7 @@ def moving_set_ups(windows: FittedWindows) -> SetUps | None:
 
 def _is_broad(fit: WindowFit) -> bool:
     """Whether a window's resonances are too broad to tell a pole that moves from two that overlap."""
-    poles = fit.modes.poles
-    return bool(np.median(poles.imag / poles.real) > _BROAD)
+    return bool(np.median(fit.modes.loss_factors) > _BROAD)
 
 
 def most_move(windows: Sequence[bool]) -> bool:

@@ -92,15 +92,9 @@ def _opened(window: Window, modes: Modes, set_ups: SetUps) -> Modes:
     return replace(modes, shift=np.broadcast_to(modes.shift, shape).astype(complex))
 
 
-def _loss(modes: Modes) -> FloatArray:
-    """Half-power bandwidths relative to the frequencies, shape (modes,)."""
-    loss: FloatArray = modes.poles.imag / modes.poles.real
-    return loss
-
-
 def _scanned(window: Window, modes: Modes, neighbours: Modes, mode: int) -> Modes:
     """Every point's best shift of one mode out of a row of common ones: neighbours must not catch the fit."""
-    starts = _STARTS * _loss(modes)[mode]
+    starts = _STARTS * modes.loss_factors[mode]
     chi2 = []
     for start in starts:
         shift = modes.shift.copy()
@@ -143,8 +137,8 @@ def _shifted(
     window: Window, modes: Modes, neighbours: Modes, chosen: IntArray, set_ups: SetUps, damped: bool
 ) -> Modes:
     """Levenberg–Marquardt on the shifts of the chosen modes, every group by itself."""
-    prior = _PRIOR * _loss(modes)[chosen]
-    limit = _LARGEST_STEP * _loss(modes)[chosen]
+    prior = _PRIOR * modes.loss_factors[chosen]
+    limit = _LARGEST_STEP * modes.loss_factors[chosen]
     if set_ups is SetUps.REFERENCES:
         prior, limit = (np.repeat(one, window.values.shape[1]) for one in (prior, limit))
 

@@ -81,10 +81,8 @@ def fingerprint_figure(rows: Sequence[FeatureRow], changed: bool) -> Picture:
         "they would coincide."
     )
     met = len(found) - len(every)
-    less = (
-        f" Left out: {met} that the declared model and the explanation both meet." if met and changed else ""
-    )
-    less = less or (f" Left out: {met} that are met." if met else "")
+    what = "the declared model and the explanation both meet" if changed else "are met"
+    less = f" Left out: {met} that {what}." if met else ""
     caption = (
         f"Grey: no more than chance.{lines if any(m.kind == 'split' for m in shown) else ''}{left}{less}"
     )
