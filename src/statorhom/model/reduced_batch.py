@@ -36,9 +36,9 @@ class BatchPairs:
     top: float
 
     @cached_property
-    def used(self) -> np.ndarray:
-        """Rows with modes in the band."""
-        return np.flatnonzero(self.counts)
+    def used(self) -> slice:
+        """Rows up to the last one with modes in the band: a view costs less than to pick those that have any."""
+        return slice(0, int(np.flatnonzero(self.counts).max(initial=-1)) + 1)
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class ReducedBatch:
     def squared_residuals(
         self, pairs: BatchPairs, weights: np.ndarray, densities: np.ndarray, ratio: float, shift: float
     ) -> np.ndarray:
-        """Upper bounds of rᵀA⁻¹r, A of the material itself, of the problems that have modes in the band.
+        """Upper bounds of rᵀA⁻¹r, A of the material itself, of the problems that count (`BatchPairs.used`).
 
         Parameters
         ----------
@@ -109,12 +109,12 @@ def certificates(
     Parameters
     ----------
     pairs : of every batch.
-    squared : of every batch the squared residuals of the problems that have modes in the band.
+    squared : of every batch the squared residuals of the problems that count (`BatchPairs.used`).
     shift : σ.
 
     Returns
     -------
-    bounds : per batch (b, j); infinite, as nothing is known, for problems without any mode in the band.
+    bounds : per batch (b, j); infinite, as nothing is known, for problems that do not count.
     """
     ends = list(accumulate((len(part) for part in squared), initial=0))
     pieces = [slice(*ends[i : i + 2]) for i in range(len(pairs))]

@@ -25,13 +25,22 @@ UNIT_DENSITY = 1e-12  # relative: densities that count as the typical ones
 
 
 @dataclass(frozen=True)
-class ProblemKind:
-    """What of a harmonic problem its modes' names need."""
+class ProblemKinds:
+    """What of the harmonic problems their modes' names need.
 
-    order: int
-    multiplicity: int
-    copies: int
-    parity: str
+    Parameters
+    ----------
+    orders, multiplicities, copies : (problems,) of each.
+    mirrored : a body with mirror planes, whose orders are numbers of combinations of parities.
+    """
+
+    orders: np.ndarray
+    multiplicities: np.ndarray
+    copies: np.ndarray
+    mirrored: bool
+
+    def __len__(self) -> int:
+        return len(self.orders)
 
 
 @dataclass(frozen=True)
@@ -41,7 +50,7 @@ class ReducedStator:
     Parameters
     ----------
     box : materials that it was made for.
-    kinds : per problem.
+    kinds : of the problems.
     batches : per cell and room the problems side by side.
     densities : at which the bases have unit mass.
     volumes : region → volume (m³).
@@ -51,7 +60,7 @@ class ReducedStator:
     """
 
     box: MaterialBox
-    kinds: tuple[ProblemKind, ...]
+    kinds: ProblemKinds
     batches: tuple[tuple[tuple[ReducedBatch, ...], ...], ...]
     densities: np.ndarray
     volumes: Mapping[str, float]
@@ -112,14 +121,14 @@ class ReducedModes:
         values, amplitudes, problems, places = (
             np.concatenate([part[i] for part in columns], axis=-1) for i in range(4)
         )
-        kinds = [self.stator.kinds[p] for p in problems]
-        of_unit_mass = amplitudes / np.sqrt([k.copies for k in kinds])
-        orders = [k.order for k in kinds]
+        kinds = self.stator.kinds
+        of_unit_mass = amplitudes / np.sqrt(kinds.copies[problems])
+        orders = kinds.orders[problems].tolist()
         known = {"mass": self.mass, "problem": problems.tolist(), "column": places.tolist()}
-        if any(k.parity == MIRROR for k in kinds):
+        if kinds.mirrored:
             found = modes_of_parities(values, of_unit_mass, parities=orders, **known)
         else:
-            multiplicity = [k.multiplicity for k in kinds]
+            multiplicity = kinds.multiplicities[problems].tolist()
             nodes = node_planes(amplitudes)
             found = name_modes(values, of_unit_mass, nodes, order=orders, multiplicity=multiplicity, **known)
         return tuple(sorted(found, key=lambda mode: mode.frequency_hz))
@@ -209,8 +218,12 @@ def reduced_stator(
         batches.append(
             tuple(_room_batches(bases, seen, room, densities) for room in range(len(rooms.members)))
         )
-    kinds = tuple(
-        ProblemKind(h.order, h.multiplicity, h.copies, h.parity) for h in (p.harmonic for p in problems)
+    harmonics = [p.harmonic for p in problems]
+    kinds = ProblemKinds(
+        np.array([h.order for h in harmonics]),
+        np.array([h.multiplicity for h in harmonics]),
+        np.array([h.copies for h in harmonics]),
+        any(h.parity == MIRROR for h in harmonics),
     )
     certified = min((p.highest_hz for p in problems), default=highest_hz)
     error = max((p.error for p in problems), default=0.0)

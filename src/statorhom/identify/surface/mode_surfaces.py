@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
@@ -61,7 +61,7 @@ class ModeSurfaces:
     def modes(self, point: Array) -> tuple[StatorMode, ...]:
         """Modes at a point of the cube, sorted by frequency."""
         found = [
-            replace(mode, frequency_hz=float(f))
+            mode._replace(frequency_hz=float(f))
             for mode, f in zip(self.examples, self.frequencies(point)[0], strict=True)
         ]
         return tuple(sorted(found, key=lambda mode: mode.frequency_hz))
