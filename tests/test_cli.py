@@ -279,3 +279,9 @@ def test_init_overwrites_nothing(tmp_path: Path) -> None:
     assert outcome.stderr.count("\n") == 1 and "stack-free.csv: exists already" in outcome.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["stack-free.csv"]
     assert (tmp_path / "stack-free.csv").read_text(encoding="utf-8") == "mine"
+
+
+def test_the_package_runs_as_a_module() -> None:
+    called = [sys.executable, "-m", "statorhom", "--help"]
+    shown = subprocess.run(called, capture_output=True, text=True, check=True).stdout
+    assert "diagnose" in shown

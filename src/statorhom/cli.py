@@ -1,4 +1,4 @@
-"""The command line: init, simulate, fit, run, batch and report."""
+"""The command line: init, simulate, modes, fit, run, diagnose, conceal, batch and report."""
 
 from __future__ import annotations
 
