@@ -79,7 +79,7 @@ def in_order(base: Refit, found: Scan, favourites: Sequence[Signature]) -> Itera
     ]
     cheap = [trial for trial in (*trials, *others) if price(trial) == CHEAP]
     alike = _of_different_effects([trial for trial in cheap if trial[0] >= ALIKE * first.gain], first)
-    yield from ((gain, [*_narrowed(starts[0]), *starts]) for gain, starts in alike)
+    yield from ((gain, [*narrowed_starts(starts[0]), *starts]) for gain, starts in alike)
     cheap = [trial for trial in cheap if trial not in alike]
     widest = [(gain, _with_rough(base, starts)) for gain, starts in cheap]
     yield from _promising(base, widest)
@@ -160,8 +160,8 @@ def _searched(start: Start) -> list[Start]:
     return [replace(start, z=rough.z, rough=rough) for rough in found]
 
 
-def _narrowed(start: Start) -> list[Start]:
-    """The same for a rival: at the optima in narrower valleys, for it will be sought from there straight away."""
+def narrowed_starts(start: Start) -> list[Start]:
+    """Starts at optima all over the prior in narrower valleys, for what will be sought from there straight away."""
     narrow = (narrowed(s.rough) for s in _searched(start) if s.rough is not None)
     return [replace(start, z=found.z) for found in narrow]
 

@@ -31,6 +31,7 @@ from statorhom.diagnose.refit_starts import (
     Trial,
     in_order,
     is_poor,
+    narrowed_starts,
     price,
     start_of,
 )
@@ -152,7 +153,14 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: floa
     best = min(found, key=_objective, default=None)
     if best is not None and cheap:
         best = min([best, *_beside_later_steps(best)], key=_objective)
+    if best is not None and best.objective > known and price((0.0, list(starts))) == CHEAP:
+        best = min([best, *_elsewhere(starts[0], worth)], key=_objective)
     return best
+
+
+def _elsewhere(start: Start, worth: float) -> list[Refit]:
+    """Optima all over the prior, for an effect that explains less than its absence stands in no valley of its own."""
+    return [r for other in narrowed_starts(start) for r in _kept(_rival(other, worth))]
 
 
 def _beside_later_steps(best: Refit) -> list[Refit]:

@@ -1,4 +1,9 @@
-"""Build the basis of a cell: greedy snapshots at the largest certified error, then no more than they need."""
+"""Build the basis of a cell: greedy snapshots at the largest certified error, then no more than they need.
+
+A snapshot is an eigenproblem of the full model. Where that is dear, as of blocks, only the softest material is solved,
+which has the most modes in the band; at all others the basis grows by corrections A⁻¹r of the residuals r of its own
+Ritz vectors (E. R. Davidson, J. Comput. Phys. 17 (1975) 87), for which the factorization of the norm serves.
+"""
 
 from __future__ import annotations
 
@@ -24,6 +29,10 @@ SOLVED = 1e-6  # relative tolerance of a snapshot's eigenvalues: it shows a dire
 DROP = 0.2  # of the tolerance: the energy below which a new direction may be left out
 BUILT = 0.6  # of the tolerance: what the greedy basis meets before it is compressed to the tolerance
 AT_ONCE = 16  # certificates that are computed side by side
+# of the error before: where several corrections in a row leave more of it, the full model is asked; one may, for a
+# certificate is large where a new Ritz value comes near another
+SLOW, PATIENCE = 0.5, 3
+CORRECTIONS = 4  # as many rounds of corrections as snapshots are allowed
 RESOLVED = 1e-5  # of the tolerance: the part of the energy that residuals need not resolve; gaps magnify it
 
 
@@ -49,18 +58,44 @@ def local_basis(
     known : modes at some of the training materials.
     """
     builder = _Builder(terms, training, highest_hz, tolerance, known)
+    if terms.parity == MIRROR:
+        _correct(builder, CORRECTIONS * most)
+    else:
+        _collect(builder, most)
+    return LocalBasis(builder.basis, tuple(builder.room(list(members)) for members in rooms))
+
+
+def _collect(builder: _Builder, most: int) -> None:
+    """Snapshots of the reference and where the error is largest."""
     builder.add_snapshot(0)
-    errors = np.full(len(training), np.inf)
+    errors = np.full(len(builder.training), np.inf)
     for _ in range(most - 1):
         worst = builder.known_first(errors, builder.worst(errors))
-        if errors[worst] <= BUILT * tolerance:
+        if errors[worst] <= BUILT * builder.tolerance:
             # a certificate does not see a mode that the basis misses altogether; the full model does
             worst = int(np.argmin(builder.ratios))
-            if builder.true_error(worst) <= tolerance:
+            if builder.true_error(worst) <= builder.tolerance:
                 break
         if not builder.add_snapshot(worst):
             break
-    return LocalBasis(builder.basis, tuple(builder.room(list(members)) for members in rooms))
+
+
+def _correct(builder: _Builder, most: int) -> None:
+    """A snapshot of the softest material, which misses no mode, and corrections where the error is largest."""
+    builder.add_snapshot(int(np.argmin(builder.ratios)))
+    errors = np.full(len(builder.training), np.inf)
+    slow = 0
+    for _ in range(most):
+        worst = builder.worst(errors)
+        before = errors[worst]
+        if before <= BUILT * builder.tolerance:
+            break
+        grown = builder.add_corrections(worst)
+        slow = slow + 1 if builder.certified_errors(np.array([worst]))[0] > SLOW * before else 0
+        if slow >= PATIENCE or not grown:
+            grown, slow = builder.add_snapshot(worst) or grown, 0
+        if not grown:
+            break
 
 
 class _Builder:
@@ -101,7 +136,29 @@ class _Builder:
 
     def add_snapshot(self, number: int) -> bool:
         """Take in a material's modes; False where they bring nothing new."""
-        new = self._new_directions(self._full_modes(number)[1])
+        vectors = self._full_modes(number)[1]
+        energies = np.einsum("ij,ij->j", vectors, self.operator @ vectors)
+        return self._add(vectors / np.sqrt(energies))
+
+    def add_corrections(self, number: int) -> bool:
+        """Take in A⁻¹r of the Ritz vectors in the band and of the next one; False where these bring nothing new.
+
+        Their energies in units of what the Ritz vectors have at least in the material itself bound the relative
+        errors of the eigenvalues.
+        """
+        weights = self.weights[number]
+        values, vectors = self.space.pairs(weights)
+        used = int((values <= self.space.top).sum()) + BEYOND
+        values, vectors = values[:used], vectors[:, :used]
+        parts = weights[:, None, None] * vectors
+        parts[self.space.directions :] *= -values
+        residuals = np.tensordot(self.images, parts, axes=((0, 2), (0, 1)))
+        least = self.ratios[number] * (values + self.space.shift)
+        return self._add(self.solve(residuals) / np.sqrt(least))
+
+    def _add(self, vectors: np.ndarray) -> bool:
+        """Take in what vectors (m, j) add to the basis."""
+        new = self._new_directions(vectors)
         if new.shape[1] == 0:
             return False
         images = self.terms.images(new)
@@ -136,9 +193,8 @@ class _Builder:
             self.solved = {number: found}
         return self.solved[number]
 
-    def _new_directions(self, vectors: np.ndarray) -> np.ndarray:
-        """What the vectors add to the basis, of unit mass; what has hardly any energy is left out."""
-        new = vectors / np.sqrt(np.einsum("ij,ij->j", vectors, self.operator @ vectors))
+    def _new_directions(self, new: np.ndarray) -> np.ndarray:
+        """What vectors add to the basis, of unit mass; what has hardly any energy, compared with one, is left out."""
         for _ in range(2):  # twice is enough (Kahan)
             new = new - self.basis @ (self.basis.T @ (self.metric @ new))
         values, rotation = np.linalg.eigh(symmetric(new.T @ (self.operator @ new)))

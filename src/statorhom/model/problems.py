@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from functools import singledispatch
 from typing import cast
 
@@ -25,6 +24,7 @@ from statorhom.model.normal_motion import normal_motion, upward_motion
 from statorhom.model.pitch_parts import pitch_parts
 from statorhom.model.radial_profile import radial_profile
 from statorhom.model.space import Profile, Space
+from statorhom.model.threads import mapper
 
 Eigenpairs = tuple[Space, np.ndarray, np.ndarray]  # a problem, its λ (k,) and coordinates (m, k) of unit mass
 # modes of a body that are asked for first, and of one combination of parities
@@ -143,5 +143,5 @@ def _(
         expected = most  # beginning anew costs more than some modes too many
     spaces = [space for order in orders for space in spaces_of(mesh, order)]
     # the limit holds for all threads: entered by each, one would lift another's
-    with one_blas_thread(), ThreadPoolExecutor(max(1, jobs)) as pool:
-        return list(pool.map(solved, spaces))
+    with one_blas_thread(), mapper(jobs) as run:
+        return list(run(solved, spaces))

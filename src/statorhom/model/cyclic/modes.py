@@ -6,10 +6,8 @@ goes on. So no mode is missed, and none is looked for in vain.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -20,6 +18,7 @@ from statorhom.model.cyclic.half_pitch import HalfPitch, columns, phases
 from statorhom.model.cyclic.lanczos import largest
 from statorhom.model.eigen import SHIFT
 from statorhom.model.harmonic import Harmonic
+from statorhom.model.threads import Mapper, mapper
 
 BATCH = 12  # problems that take their steps together: more would leave nothing for a second thread
 STEP = 1e-4  # how far the counting moves up where the factorization at the band's end is not to be trusted
@@ -27,7 +26,6 @@ TRIALS = 5
 LOWER = 0.5  # of λ: by how much the band's end goes down while a few of its modes are enough
 
 Pairs = tuple[np.ndarray, np.ndarray]
-Mapper = Callable[..., Any]
 
 
 def modes_of(
@@ -63,13 +61,13 @@ def modes_of(
         if mine:
             groups.append(_Group(pitch, mine, tuple(spaces[i] for i in mine)))
     # the limit holds for all threads: entered by each, one would lift another's
-    with one_blas_thread(), ThreadPoolExecutor(max(1, jobs)) as pool:
-        top, ends = _band(pool.map, groups, top, most)
-        starts = _levels(pool.map, groups, -SHIFT * top)
+    with one_blas_thread(), mapper(jobs) as run:
+        top, ends = _band(run, groups, top, most)
+        starts = _levels(run, groups, -SHIFT * top)
         batches = [
             batch for entry in zip(groups, starts, ends, strict=True) for batch in _batches(*entry, top, most)
         ]
-        pairs = dict(pair for found in pool.map(_Batch.solve, batches) for pair in found)
+        pairs = dict(pair for found in run(_Batch.solve, batches) for pair in found)
     nothing = [(np.empty(0), np.empty((space.size, 0))) for space in spaces]
     return [pairs.get(i, empty) for i, empty in enumerate(nothing)]
 
