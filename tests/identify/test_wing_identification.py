@@ -33,6 +33,6 @@ def test_E_and_G_of_the_cloth_are_found_again(found: dict[str, dict[str, Any]], 
 
 
 @pytest.mark.slow
-def test_the_reduced_basis_takes_fewer_full_solves(found: dict[str, dict[str, Any]]) -> None:
+def test_the_reduced_basis_takes_a_tenth_of_the_full_solves(found: dict[str, dict[str, Any]]) -> None:
     surface, annealing = (found[method]["full_solves"] for method in ("response_surface", "annealing"))
-    assert annealing < 0.5 * surface
+    assert annealing <= 0.1 * surface
