@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import product
@@ -70,9 +69,8 @@ def whole_tube(sizes: tuple[float, float, float]) -> GeneralModel:
     return whole_ring(mesh_step(tube_geometry(keys, "test").step(("coupon",)), FINE))
 
 
-def tube_modes(
-    hidden: Sequence[Hidden] = (), *, keys: TubeKeys = TYPED, material: Material = STEEL
-) -> TubeModes:
+@lru_cache(maxsize=4)
+def tube_modes(hidden: tuple[Hidden, ...] = (), *, keys: TubeKeys = TYPED) -> TubeModes:
     """Modes of a free tube with what is hidden on it."""
     model = whole_tube((keys.outer_diameter_mm, keys.inner_diameter_mm, keys.length_mm))
     radius = keys.outer_diameter_mm / 2e3
@@ -82,7 +80,7 @@ def tube_modes(
         places = np.repeat(dofs, len(dofs)), np.tile(dofs, len(dofs))
         added = [sp.csr_array((A.ravel(), places), shape=(model.size, model.size)) for A in (K, M)]
         changed = changed.with_added(*added)
-    found = changed.solve(TOP_HZ, {"tube": material})
+    found = changed.solve(TOP_HZ, {"tube": STEEL})
     elastic = found.frequencies_hz > RIGID_HZ
     grid, angles, z = _outside(model, radius)
     shapes = found.vectors.T.reshape(len(found.eigenvalues), -1, 3)[elastic]
