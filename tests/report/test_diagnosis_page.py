@@ -73,8 +73,8 @@ def test_every_verdict_is_told_in_plain_words(verdict: Verdict, places: bool) ->
 def test_a_named_effect_has_place_size_and_probability() -> None:
     said = words_of(page("named"))
     assert "mass 57.0 g (90 % interval 53.0 … 62.0)" in said or "mass 57 g (90 % interval 53 … 62)" in said
-    assert "at 100° ± 3.3° around the stator (or, equally possible: 280°)" in said
-    assert "60 ± 7 mm above the core’s lower end" in said
+    assert "at 100° ± 3.3° around the axis (or, equally possible: 280°)" in said
+    assert "60 ± 7 mm above the lower end" in said
     assert "probability 97 %" in said
     assert "exclude 280°" in said
     assert "held out: not seen by the fit" in said

@@ -18,7 +18,7 @@ from statorhom.diagnose.stage_model import StageModel, mesh_error, stage_model, 
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.diagnose.valleys import trials_around, wide_optima
 from statorhom.errors import IdentificationError, StatorhomError
-from statorhom.geometry.stator import StatorGeometry
+from statorhom.geometry.tested_object import RingGeometry
 from statorhom.identify.settings import Settings
 from statorhom.identify.stage_setup import StageSetup, stage_setup
 from statorhom.model.affine import Materials
@@ -56,7 +56,7 @@ class Baseline:
 
 def baseline(
     files: StudyFiles,
-    geometry: StatorGeometry,
+    geometry: RingGeometry,
     tests: Mapping[str, MeasuredTest],
     settings: Settings,
 ) -> Baseline:

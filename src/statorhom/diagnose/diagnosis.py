@@ -46,8 +46,7 @@ from statorhom.diagnose.resampling import stability
 from statorhom.diagnose.scan import Scan, rescanned
 from statorhom.diagnose.second_effects import second_effects
 from statorhom.diagnose.simpler import by_criterion, simpler_fits
-from statorhom.geometry.stator import StatorGeometry
-from statorhom.geometry.tested_object import ObjectGeometry
+from statorhom.geometry.tested_object import ObjectGeometry, RingGeometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.settings import Settings
 from statorhom.physics.declared import DeclaredEffect
@@ -96,7 +95,7 @@ def diagnose(
     """
     began = time.perf_counter()
     with threadpool_limits(limits=1, user_api="blas"), one_line_errors(str(files.path)):
-        approach = RING if isinstance(geometry, StatorGeometry) else BODY
+        approach = RING if isinstance(geometry, RingGeometry) else BODY
         found = _find(approach, files, geometry, tests, settings, announce)
         undecided = found.verdict == "ambiguous"
         choice = (

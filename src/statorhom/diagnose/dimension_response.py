@@ -17,19 +17,24 @@ from statorhom.diagnose.masses import stage_densities
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.errors import GeometryError, MassError
-from statorhom.geometry.stator import StatorGeometry, StepGeometry, stator_geometry
+from statorhom.geometry.stator import StepGeometry
+from statorhom.geometry.tested_object import RingGeometry, object_geometry
 from statorhom.mesh.extrude import mesh_step
 from statorhom.model.affine import AffineModel, Material, Materials, assemble
 from statorhom.model.convergence import ModeKey, mode_keys
 from statorhom.model.free_modes import problem_at
+from statorhom.physics.ring import tube_sizes
 
-STEP = 0.004  # of ln(dimension), to each side, for the slopes
-FAR = 0.03  # of ln(dimension), to each side: changed machines that are solved, with a cubic through them
+# of ln(dimension), to each side, for the slopes; of a tube's wall where a diameter bounds it. A thin wall that is drawn
+# thinner with its nodes shears, and Ritz values are off by the square of that.
+STEP = 0.001
+FAR = 0.03  # the same for changed machines that are solved, with a cubic through them
+HIGHER = 1.1  # than the declared machine's band: its modes rise as they are changed
 MOST = 6  # modes of a harmonic problem that are looked for
 JUMP = 0.01  # of ln f: farther from its slope a mode is another one
 
 
-def changed_geometry(study: StudyModel, dimensions: Mapping[str, float]) -> StatorGeometry:
+def changed_geometry(study: StudyModel, dimensions: Mapping[str, float]) -> RingGeometry:
     """The machine with other dimensions.
 
     Raises
@@ -37,15 +42,17 @@ def changed_geometry(study: StudyModel, dimensions: Mapping[str, float]) -> Stat
     GeometryError
         If it is impossible.
     """
-    file = study.files.geometry
+    file = study.files.drawing
     for key, value in dimensions.items():
         section, name = key.split(".")
         table = getattr(file, section).model_copy(update={name: value})
         file = file.model_copy(update={section: table})
-    return stator_geometry(file, study.files.geometry_path)
+    changed = object_geometry(file, study.files.geometry_path)
+    assert isinstance(changed, RingGeometry)
+    return changed
 
 
-def step_of(study: StudyModel, stage: StageModel, geometry: StatorGeometry) -> StepGeometry:
+def step_of(study: StudyModel, stage: StageModel, geometry: RingGeometry) -> StepGeometry:
     """A stage of a changed machine."""
     return geometry.step(tuple(s.kind for s in study.files.study.stages[: stage.setup.index + 1]))
 
@@ -53,7 +60,7 @@ def step_of(study: StudyModel, stage: StageModel, geometry: StatorGeometry) -> S
 def typed(study: StudyModel, key: str) -> float:
     """A dimension as the geometry file has it."""
     section, name = key.split(".")
-    return float(getattr(getattr(study.files.geometry, section), name))
+    return float(getattr(getattr(study.files.drawing, section), name))
 
 
 def dimension_shift(
@@ -75,14 +82,21 @@ def dimension_shift(
     return total
 
 
+def _scaled(study: StudyModel, name: str) -> float:
+    """Part of a dimension that steps are parts of."""
+    number, scaled = tube_sizes(study.files).get(name.partition(".")[2], (1.0, 1.0))
+    return abs(scaled) / number
+
+
 @lru_cache(maxsize=256)
 def _slopes(study: StudyModel, stage: StageModel, name: str) -> Mapping[ModeKey, float]:
     try:
         # the Ritz values' own errors, of second order, cancel
-        low, high = (_shifts(study, stage, name, sign * STEP) for sign in (-1, 1))
+        step = STEP * _scaled(study, name)
+        low, high = (_shifts(study, stage, name, sign * step) for sign in (-1, 1))
     except (GeometryError, MassError):
         return {}
-    return {key: (high[key] - low[key]) / (2 * STEP) for key in low.keys() & high.keys()}
+    return {key: (high[key] - low[key]) / (2 * step) for key in low.keys() & high.keys()}
 
 
 @lru_cache(maxsize=256)
@@ -90,21 +104,23 @@ def _bends(study: StudyModel, stage: StageModel, name: str) -> Mapping[ModeKey, 
     """Coefficients of the square and the cube of ln(dimension) in ln f."""
     slopes = _slopes(study, stage, name)
     try:
-        low, high = (_solved(study, stage, name, sign * FAR) for sign in (-1, 1))
+        far = FAR * _scaled(study, name)
+        low, high = (_solved(study, stage, name, sign * far) for sign in (-1, 1))
     except (GeometryError, MassError):
         return {}
     found = {}
     for key in slopes.keys() & low.keys() & high.keys():
-        rest = [shift - slopes[key] * t for shift, t in ((low[key], -FAR), (high[key], FAR))]
+        rest = [shift - slopes[key] * t for shift, t in ((low[key], -far), (high[key], far))]
         if max(map(abs, rest)) < JUMP:
-            found[key] = (sum(rest) / (2 * FAR**2), (rest[1] - rest[0]) / (2 * FAR**3))
+            found[key] = (sum(rest) / (2 * far**2), (rest[1] - rest[0]) / (2 * far**3))
     return found
 
 
 def _solved(study: StudyModel, stage: StageModel, name: str, log_change: float) -> dict[ModeKey, float]:
     """Change of ln f on the changed mesh."""
     model, materials = _changed(study, stage, name, log_change)
-    after = mode_keys(problem_at(model, materials).solve(stage.ring.highest_hz, stage.orders, MOST).modes)
+    top = HIGHER * stage.ring.highest_hz
+    after = mode_keys(problem_at(model, materials).solve(top, stage.orders, MOST).modes)
     before = stage.reference_keys
     return {k: float(np.log(after[k].frequency_hz / before[k].frequency_hz)) for k in before.keys() & after}
 

@@ -50,6 +50,7 @@ from statorhom.diagnose.supported import (
     without_attachments,
 )
 from statorhom.diagnose.supported_partners import Partners, partners, supported_features
+from statorhom.materials.density import REGION_OF_STEP
 from statorhom.model.convergence import ModeKey
 from statorhom.physics.action import Action
 from statorhom.study.modal_table import MeasuredMode
@@ -274,10 +275,10 @@ class Hypothesis(AnyHypothesis):
         changed = changed_geometry(self.study, dimensions) if dimensions else None
         found = []
         for stage in self.study.stages:
-            known = KNOWN.get(stage.setup.keys.kind)
-            if known is None:
+            kind = stage.setup.keys.kind
+            if kind not in KNOWN:
                 continue
-            region, mean, sd = known
+            region, (mean, sd) = REGION_OF_STEP[kind], KNOWN[kind]
             volumes = (
                 self.study.volumes(stage.setup)
                 if changed is None

@@ -8,16 +8,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
-from statorhom.materials.density import Weighing, densities
+from statorhom.materials.density import Weighing, densities, whole_density
+from statorhom.study.regions import COUPON
 from statorhom.study.study import StudyFiles
 
-# region → mean and standard deviation of the density (kg/m³) after the step that adds it
-KNOWN: Mapping[str, tuple[str, float, float]] = MappingProxyType(
+# kind of step → mean and standard deviation of the density (kg/m³) of what it adds; coupons may be of anything
+KNOWN: Mapping[str, tuple[float, float]] = MappingProxyType(
     {
         # sheets of electrical steel of 7600 … 7850 kg/m³ at usual stacking factors
-        "stack": ("lamination", 7700.0, 90.0),
+        "stack": (7700.0, 90.0),
         # copper that fills 30 … 42 % of slots and overhangs, with its insulation
-        "wound": ("winding", 3150.0, 350.0),
+        "wound": (3150.0, 350.0),
     }
 )
 
@@ -42,4 +43,6 @@ def stage_densities(
     weighings: Sequence[Weighing] = [
         Weighing(s.name, s.kind, masses_kg[s.name], s.mass_sd_kg) for s in files.study.stages[: index + 1]
     ]
+    if weighings[-1].kind == COUPON:
+        return {r: whole_density(weighings[-1], r, v).density_kg_m3 for r, v in volumes.items()}
     return {d.region: d.density_kg_m3 for d in densities(weighings, volumes)}

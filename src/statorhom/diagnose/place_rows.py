@@ -10,15 +10,19 @@ from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.opposite import equivalent_angles, told_apart
 from statorhom.diagnose.refit import Refit
 from statorhom.physics.library import library
+from statorhom.physics.ring import ring_of
 from statorhom.results.diagnosis import AngleRow, MachineRow, MapRow, OppositeRow
 from statorhom.study.study import StudyFiles
 
 
 def machine_row(files: StudyFiles) -> MachineRow:
-    """What pictures need of the geometry file."""
-    core = files.geometry.core
+    """What pictures and their words need of the geometry file."""
+    ring = ring_of(files)
     return MachineRow(
-        length_mm=core.length_mm, outer_diameter_mm=core.outer_diameter_mm, slots=files.geometry.slots.count
+        kind=files.drawing.kind,
+        length_mm=1e3 * ring.length,
+        outer_diameter_mm=2e3 * ring.outer_radius,
+        slots=ring.slots,
     )
 
 

@@ -1,6 +1,6 @@
 """How a stiffness that varies around the core splits each doublet: not all modes of an order alike.
 
-The wave cos 2rθ of the lamination's stiffness splits the doublets of order r. Where a mode bends the core most the
+The wave cos 2rθ of the core's stiffness splits the doublets of order r. Where a mode bends the core most the
 strain energy stands at the antinodes, where it shears the sheets between them: such modes split the other way round.
 """
 
@@ -14,8 +14,7 @@ from statorhom.diagnose.ring_basis import RingModes
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.convergence import ModeKey
 from statorhom.model.stator_mode import StatorMode
-
-REGION = "lamination"
+from statorhom.study.regions import core_region
 
 
 def scatter_weights(
@@ -34,7 +33,8 @@ def scatter_weights(
     solved : the modes.
     named : of them.
     """
-    core, mass = model.region_stiffness(REGION, materials[REGION]), model.mass_matrix(materials)
+    region = core_region(model.mesh.regions)
+    core, mass = model.region_stiffness(region, materials[region]), model.mass_matrix(materials)
     slots = model.mesh.slots
     found = {}
     for key, mode in named.items():

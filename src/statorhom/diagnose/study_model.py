@@ -11,7 +11,7 @@ import numpy.typing as npt
 from statorhom.diagnose.constants import Constants
 from statorhom.diagnose.masses import stage_densities
 from statorhom.diagnose.stage_model import StageModel
-from statorhom.geometry.stator import StatorGeometry
+from statorhom.geometry.tested_object import RingGeometry
 from statorhom.identify.stage_materials import DENSITY
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.model.affine import Materials
@@ -28,14 +28,14 @@ class StudyModel:
     Parameters
     ----------
     files : the study.
-    geometry : of the machine.
+    geometry : of the stator or tube.
     constants : of all steps.
     stages : the tested ones.
     effects : what the study declares beside materials and supports.
     """
 
     files: StudyFiles
-    geometry: StatorGeometry
+    geometry: RingGeometry
     constants: Constants
     stages: tuple[StageModel, ...]
     effects: tuple[Action, ...] = ()

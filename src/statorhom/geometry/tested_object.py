@@ -14,7 +14,9 @@ from statorhom.study.message import one_line
 from statorhom.study.object_file import ObjectFile
 from statorhom.study.wing_file import WingFile
 
-ObjectGeometry = StatorGeometry | BlockGeometry | TubeGeometry | WingGeometry
+# whose modes have names (r, n)
+RingGeometry = StatorGeometry | TubeGeometry
+ObjectGeometry = RingGeometry | BlockGeometry | WingGeometry
 # as it stands after some step
 ObjectStep = StepGeometry | BlockGeometry | WingGeometry
 

@@ -13,9 +13,9 @@ from statorhom.errors import SupportError
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.element import shape_functions
 from statorhom.model.harmonic import Harmonic, harmonic_spaces
+from statorhom.study.regions import core_region
 
 TOLERANCE = 1e-9  # m
-CORE = "lamination"
 _BOTTOM = np.array([0, 1, 2, 3, 8, 9, 10, 11])
 _TOP = np.array([4, 5, 6, 7, 16, 17, 18, 19])
 
@@ -68,7 +68,7 @@ def face_stiffness(mesh: HalfPitchMesh, ends: EndFaces) -> sp.csr_array:
 
 
 def _sides(mesh: HalfPitchMesh, ends: EndFaces) -> list[tuple[bool, np.ndarray, np.ndarray]]:
-    elements = mesh.elements_of(CORE)
+    elements = mesh.elements_of(core_region(mesh.regions))
     z = mesh.nodes[elements, 2]
     lower = np.all(np.abs(z[:, _BOTTOM]) < TOLERANCE, axis=1)
     upper = np.all(np.abs(z[:, _TOP] - mesh.length) < TOLERANCE, axis=1)

@@ -23,7 +23,7 @@ from threadpoolctl import threadpool_limits
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import AffineModel, Materials
 from statorhom.model.eigen import frequency_hz
-from statorhom.model.end_faces import CORE, EndFaces, face_stiffness, held_spaces
+from statorhom.model.end_faces import EndFaces, face_stiffness, held_spaces
 from statorhom.model.harmonic import Harmonic, all_orders
 from statorhom.model.point_flexibility import flexibility
 from statorhom.model.point_response import (
@@ -37,6 +37,7 @@ from statorhom.model.ritz import standard_pairs
 from statorhom.model.stator_mode import RIGID_HZ
 from statorhom.model.supported_shapes import ShapePart, SupportedModes
 from statorhom.model.supports import Support
+from statorhom.study.regions import core_region
 
 MARGIN = 2.0  # free modes reach this much higher than the band
 # Below this part of its ring frequency a stator is rigid: of such a band the basis would be nothing but bodies,
@@ -130,7 +131,7 @@ def solve_supported(
 
 def _ring_hz(model: AffineModel, materials: Materials) -> float:
     """Frequency at which a wave runs once round the core."""
-    core = materials[CORE]
+    core = materials[core_region(materials)]
     return float(np.sqrt(core.hooke.matrix[1, 1] / core.density) / (2 * np.pi * model.mesh.outer_radius))
 
 

@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
-from statorhom.study.object_file import STATOR
+from statorhom.study.object_file import STATOR, TUBE
 from statorhom.study.study import StudyFiles
 
 
@@ -35,7 +35,7 @@ class Effect(ABC):
 
     Class attributes: `name` (formats.md), `summary` (one sentence for the report), `citation`, `confused_with`, and
     `note`, which says how magnitudes are modelled where that matters; `coupon_words` where plates, beams and wings
-    ask for others.
+    ask for others, and `tube_words` where tubes do.
     """
 
     name: ClassVar[str]
@@ -44,10 +44,15 @@ class Effect(ABC):
     confused_with: ClassVar[tuple[Confusion, ...]] = ()
     note: ClassVar[str | None] = None
     coupon_words: ClassVar[Words | None] = None
+    tube_words: ClassVar[Words | None] = None
 
     @abstractmethod
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         """All ways in which the effect may be present in a stator's study; none where it is declared or cannot be."""
+
+    def tube_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:  # noqa: ARG002
+        """The same of a study of a tube, whose wall is the core of a ring; none where it needs more of a stator."""
+        return ()
 
     def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:  # noqa: ARG002
         """The same of a study of a plate, a beam or a wing; none where the effect is one of stators alone."""
@@ -63,9 +68,9 @@ class Effect(ABC):
 
     def words(self, files: StudyFiles) -> Words:
         """What is said of it in a study."""
-        if self.coupon_words is not None and files.drawing.kind != STATOR:
-            return self.coupon_words
-        return Words(self.summary, self.note, self.confused_with)
+        plain = Words(self.summary, self.note, self.confused_with)
+        own = {STATOR: None, TUBE: self.tube_words}.get(files.drawing.kind, self.coupon_words)
+        return own or plain
 
     def reported(self, candidate: Candidate, values: Mapping[str, float]) -> dict[str, float | str]:
         """Parameters as diagnosis.json names them: by default all that are no places, and the choices."""

@@ -9,7 +9,7 @@ from functools import cache
 from statorhom.physics import effects
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.effect import Effect
-from statorhom.study.object_file import STATOR
+from statorhom.study.object_file import STATOR, TUBE
 from statorhom.study.study import StudyFiles
 
 
@@ -36,11 +36,12 @@ def library() -> dict[str, Effect]:
 def all_candidates(files: StudyFiles) -> tuple[Candidate, ...]:
     """Everything that the library can say of a study."""
     found = [candidate for effect in library().values() for candidate in candidates_of(effect, files)]
-    if files.drawing.kind != STATOR:
+    if files.drawing.kind not in (STATOR, TUBE):
         found += [candidate for effect in library().values() for candidate in effect.coupon_pairs(files)]
     return tuple(found)
 
 
 def candidates_of(effect: Effect, files: StudyFiles) -> tuple[Candidate, ...]:
     """What an effect can be in a study, by the kind of body that the study is of; two of it are declared as two."""
-    return effect.candidates(files) if files.drawing.kind == STATOR else effect.coupon_candidates(files)
+    by_kind = {STATOR: effect.candidates, TUBE: effect.tube_candidates}
+    return by_kind.get(files.drawing.kind, effect.coupon_candidates)(files)

@@ -12,6 +12,7 @@ from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Material, hooke_coefficients
 from statorhom.model.broken.layers import Layers, radial_layers
 from statorhom.model.broken.pieces import Pieces, stiffness_pieces
+from statorhom.study.regions import core_region
 
 ALL = (True,) * 9
 MOST = 12  # sets of pieces that are kept
@@ -41,10 +42,12 @@ def hooke_pieces(mesh: HalfPitchMesh, region: str, coefficients: np.ndarray) -> 
 
 
 def yoke_layers(mesh: HalfPitchMesh, material: Material, inner: float) -> Layers:
-    """Layers of the lamination's elements that reach beyond a radius (m)."""
+    """Layers of the core's elements that reach beyond a radius (m)."""
     coefficients = hooke_coefficients(material.hooke)
     key = (id(mesh), inner, *coefficients.tolist())
-    return _kept(mesh, key, lambda: radial_layers(mesh, "lamination", coefficients, LAYERS, inner))
+    return _kept(
+        mesh, key, lambda: radial_layers(mesh, core_region(mesh.regions), coefficients, LAYERS, inner)
+    )
 
 
 def _kept(mesh: HalfPitchMesh, key: tuple[object, ...], make: Callable[[], _Kept]) -> _Kept:

@@ -76,7 +76,7 @@ def report_document(folder: Path) -> Document:
     verdict, *more = diagnosis_sections(diagnosis, details)
     return replace(
         identified,
-        title="Materials of a stator, and what its model left out",
+        title=f"{identified.title.partition(',')[0]}, and what its model left out",
         facts=(*identified.facts, *diagnosis_facts(diagnosis, details)),
         sections=(summary, verdict, *rest[:-1], *more, rest[-1]),
     )

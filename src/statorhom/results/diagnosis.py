@@ -163,8 +163,9 @@ class OppositeRow(_Part):
 
 
 class MachineRow(_Part):
-    """What the pictures need of the machine."""
+    """What the pictures need of the machine or tube."""
 
+    kind: str = "stator"
     length_mm: float
     outer_diameter_mm: float
     slots: int

@@ -17,10 +17,11 @@ from statorhom.study.wing_file import WingFile
 ObjectFile = GeometryFile | CouponFile | WingFile
 
 STATOR = "stator"
+TUBE = "tube"
 KINDS: Mapping[
     str, type[GeometryFile] | type[PlateFile] | type[BeamFile] | type[TubeFile] | type[WingFile]
 ] = MappingProxyType(
-    {STATOR: GeometryFile, "plate": PlateFile, "beam": BeamFile, "tube": TubeFile, "wing": WingFile}
+    {STATOR: GeometryFile, "plate": PlateFile, "beam": BeamFile, TUBE: TubeFile, "wing": WingFile}
 )
 
 

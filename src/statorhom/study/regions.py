@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Literal
 
@@ -14,6 +14,9 @@ Symmetry = Literal["isotropic", "transversely_isotropic", "orthotropic"]
 #: Regions of coupons: a test piece has one, named after its kind.
 COUPON_REGIONS: tuple[Region, ...] = ("plate", "beam", "tube")
 REGIONS: tuple[Region, ...] = ("lamination", "winding", "overhang", "frame", "machine", *COUPON_REGIONS)
+
+#: Regions that are the core of a ring: the sheets of a stator, the wall of a tube.
+CORES: tuple[Region, ...] = ("lamination", "tube")
 
 #: Regions that a step adds or changes, the steps in the order of fabrication.
 REGIONS_OF_KIND: Mapping[StageKind, tuple[Region, ...]] = MappingProxyType(
@@ -69,6 +72,24 @@ COUPON_CONSTANTS: Mapping[Symmetry, tuple[str, ...]] = MappingProxyType(
         ),
     }
 )
+
+
+def core_region(regions: Iterable[Region]) -> Region:
+    """The one of a ring's regions that is its core: it carries lumps, springs and supports.
+
+    Parameters
+    ----------
+    regions : of a mesh, of materials or of a study's step, in any order.
+
+    Raises
+    ------
+    ValueError
+        If none of them is the core of a ring.
+    """
+    found = [region for region in regions if region in CORES]
+    if len(found) != 1:
+        raise ValueError(f"a ring has one region of {', '.join(CORES)}, not {found}")
+    return found[0]
 
 
 def is_modulus(constant: str) -> bool:

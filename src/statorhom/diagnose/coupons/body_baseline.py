@@ -26,7 +26,6 @@ from statorhom.model.affine import Materials
 from statorhom.model.modal.modal_body import NEAR, WIDE
 from statorhom.physics.declared import declared_effects
 from statorhom.physics.plan import plan_of
-from statorhom.study.message import input_error
 from statorhom.study.study import StudyFiles
 from statorhom.study.study_file import FREE
 
@@ -51,16 +50,11 @@ def body_baseline(
     ------
     IdentificationError
         If the study has no free test.
-    InputFileError
-        If the body is a tube.
     StatorhomError
         If files, masses or tests do not allow it.
     """
     plan = plan_of(files)
-    if plan is None:
-        raise input_error(
-            files.geometry_path, "kind", f"a {files.drawing.kind} cannot be diagnosed yet", "use fit or run"
-        )
+    assert plan is not None, "rings have an approach of their own"
     setup = stage_setup(files, geometry, 0)
     own = [tests[t.name] for t in setup.tests if t.name in tests and t.support == FREE]
     if not own:

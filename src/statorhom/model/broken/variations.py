@@ -16,6 +16,7 @@ from statorhom.model.broken.cells import Sectors, cells
 from statorhom.model.broken.change import PieceChange
 from statorhom.model.broken.layers import Layers
 from statorhom.model.broken.pieces import Pieces, elements_in, mass_pieces, stiffness_pieces
+from statorhom.study.regions import core_region
 
 
 def strip(core: Layers, angle: float, *, width: float, depth: float, ratio: float) -> PieceChange:
@@ -23,7 +24,7 @@ def strip(core: Layers, angle: float, *, width: float, depth: float, ratio: floa
 
     Parameters
     ----------
-    core : layers of the lamination's elements.
+    core : layers of the core's elements.
     angle, width : of the strip's middle, and how wide it is (rad).
     depth : how deep it reaches below the core's outer radius (m).
     ratio : modulus within the strip over that of the core.
@@ -40,12 +41,12 @@ def wave(
 
     Parameters
     ----------
-    yoke : stiffness of the lamination's elements (`region_stiffness`).
+    yoke : stiffness of the core's elements (`region_stiffness`).
     angle : α, a maximum of the stiffness (rad).
     harmonic, amplitude : n and ε.
     inner : radius at which the yoke begins (m).
     """
-    place = cells(mesh, elements_in(mesh, ("lamination",)))
+    place = cells(mesh, elements_in(mesh, (core_region(mesh.regions),)))
     low, high = np.moveaxis(place.angles, -1, 0)
     mean = (np.sin(harmonic * (high - angle)) - np.sin(harmonic * (low - angle))) / (harmonic * (high - low))
     weights = amplitude * mean * place.share_of_depth(inner, mesh.outer_radius)[:, None]

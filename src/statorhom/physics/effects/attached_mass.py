@@ -13,6 +13,7 @@ from statorhom.physics.candidate import Candidate
 from statorhom.physics.effect import Confusion, Effect, Words
 from statorhom.physics.parameter import EffectParameter, angle, height
 from statorhom.physics.plan import places_on, plan_of
+from statorhom.physics.ring import ring_of
 from statorhom.study.study import StudyFiles
 
 # Terminal boxes, lugs and weights: how high their centre of gravity lies decides how much the tangential motion, and
@@ -48,17 +49,26 @@ class AttachedMass(Effect):
         ),
     )
 
+    tube_words = Words(
+        "a lump on the outside of the tube is not in the model",
+        note,
+        confused_with,
+    )
+
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
-        length = files.geometry.core.length_mm / 1e3
+        ring = ring_of(files)
         found = []
         for stage in files.study.stages:
             if not stage.tests:
                 continue
             mass = _share_of(stage.mass_kg)
             # foot and all on the surface
-            place = height(length)
-            found.append(Candidate(self.name, stage.name, (mass, HEIGHT_MM, angle(), place), "lamination"))
+            place = height(ring.length)
+            found.append(Candidate(self.name, stage.name, (mass, HEIGHT_MM, angle(), place), ring.region))
         return tuple(found)
+
+    def tube_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        return self.candidates(files)
 
     def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         places = places_on(files)
@@ -82,7 +92,7 @@ class AttachedMass(Effect):
             places = plan.both_sides(values) if candidate.both_sides else (plan.on_top(values),)
             lumps = tuple(Attachment(place, values["mass_kg"]) for place in places)
             return Action(attachments=lumps, stages=frozenset({candidate.stage}))
-        length = files.geometry.core.length_mm / 1e3
+        length = ring_of(files).length
         above = values.get("cog_height_mm", USUAL_MM) / 1e3
         foot = min(FOOT * above, 0.5 * length)
         z = min(max(values["z_m"], 0.51 * foot), length - 0.51 * foot)

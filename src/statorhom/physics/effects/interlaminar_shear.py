@@ -10,6 +10,7 @@ from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.effect import Confusion, Effect
 from statorhom.physics.parameter import EffectParameter
+from statorhom.physics.ring import ring_of
 from statorhom.study.study import StudyFiles
 
 SHEAR = EffectParameter("G_rz_pa", 1e9, 60e9, 0.2e9, 75e9, "log", (35e9, 10e9, 2.5e9), None)
@@ -33,17 +34,19 @@ class InterlaminarShear(Effect):
     )
 
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
-        if files.study.symmetry(0, "lamination") != "isotropic":
+        core = ring_of(files).region
+        if files.study.symmetry(0, core) != "isotropic":
             return ()
         first = next((s.name for s in files.study.stages if s.tests), files.study.stages[0].name)
-        return (Candidate(self.name, first, (SHEAR, AXIAL), "lamination"),)
+        return (Candidate(self.name, first, (SHEAR, AXIAL), core),)
 
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
-        def rule(materials: Materials) -> Materials:
-            soft = sheared(materials["lamination"], values["G_rz_pa"], values["E_z_pa"])
-            return {**materials, "lamination": soft}
+        core = ring_of(files).region
 
-        return Action(materials=rule, symmetries={"lamination": "transversely_isotropic"})
+        def rule(materials: Materials) -> Materials:
+            return {**materials, core: sheared(materials[core], values["G_rz_pa"], values["E_z_pa"])}
+
+        return Action(materials=rule, symmetries={core: "transversely_isotropic"})
 
 
 EFFECT = InterlaminarShear()

@@ -16,6 +16,8 @@ from statorhom.physics.effect import Confusion, Effect, Words
 from statorhom.physics.parameter import EffectParameter, angle
 from statorhom.physics.pieces import yoke_layers
 from statorhom.physics.plan import plan_of
+from statorhom.physics.ring import ring_of
+from statorhom.study.regions import core_region
 from statorhom.study.study import StudyFiles
 
 WIDTH_RAD = 0.1745  # 10°
@@ -46,10 +48,20 @@ class LocalStiffness(Effect):
         (Confusion("attached_mass", "shapes at more points near the place"),),
     )
 
+    tube_words = Words(
+        "an axial strip of the tube's wall is stiffer or softer: a seam, a groove, a slot",
+        "modulus of an axial strip of the wall's outside, 10° wide, over that of the rest; its depth is found as well",
+        confused_with,
+    )
+
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         stages = [stage.name for stage in files.study.stages if stage.tests]
-        depth = _depth(files.geometry.core.yoke_thickness_mm)
-        return tuple(Candidate(self.name, name, (RATIO, angle(), depth), "lamination") for name in stages[:1])
+        ring = ring_of(files)
+        depth = _depth(1e3 * ring.yoke)
+        return tuple(Candidate(self.name, name, (RATIO, angle(), depth), ring.region) for name in stages[:1])
+
+    def tube_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        return self.candidates(files)
 
     def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         plan = plan_of(files)
@@ -69,15 +81,15 @@ class LocalStiffness(Effect):
             radii = (SPREAD * plan.radii[0], SPREAD * plan.radii[1])
             patch = Patch((x, y), radii, values["stiffness_ratio"])
             return Action(patches=(patch,), stages=frozenset({candidate.stage}))
-        yoke = files.geometry.core.yoke_thickness_mm / 1e3
+        yoke = ring_of(files).yoke
 
         def changes(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
-            core = yoke_layers(mesh, materials["lamination"], mesh.outer_radius - yoke)
+            core = yoke_layers(mesh, materials[core_region(materials)], mesh.outer_radius - yoke)
             ratio, place, depth = values["stiffness_ratio"], values["angle_rad"], 1e-3 * values["depth_mm"]
             return (strip(core, place, width=WIDTH_RAD, depth=depth, ratio=ratio),)
 
         def examples(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
-            core = yoke_layers(mesh, materials["lamination"], mesh.outer_radius - yoke)
+            core = yoke_layers(mesh, materials[core_region(materials)], mesh.outer_radius - yoke)
             places, depth = np.array([0.0, 0.5, 1.0]) * np.pi / mesh.slots, USUAL_DEPTH * yoke
             return tuple(strip(core, place, width=WIDTH_RAD, depth=depth, ratio=TRAINED) for place in places)
 

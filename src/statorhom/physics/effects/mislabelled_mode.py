@@ -34,6 +34,9 @@ class MislabelledMode(Effect):
             if (r, n) != (mode.order, mode.axial) and r + n > 1
         )  # fmt: skip
 
+    def tube_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        return self.candidates(files)
+
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
         key = candidate.chosen
         name = int(key["order"]), int(key["axial"])

@@ -12,9 +12,11 @@ from statorhom.model.broken.change import Change
 from statorhom.model.broken.variations import wave
 from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
-from statorhom.physics.effect import Confusion, Effect
+from statorhom.physics.effect import Confusion, Effect, Words
 from statorhom.physics.parameter import EffectParameter, angle
 from statorhom.physics.pieces import region_pieces
+from statorhom.physics.ring import ring_of
+from statorhom.study.regions import core_region
 from statorhom.study.study import StudyFiles
 
 # a ring splits order r by the harmonic 2 r alone; odd ones split nothing
@@ -32,23 +34,31 @@ class Ovality(Effect):
     )
     note = "of the yoke's stiffness, its mass unchanged; the angle is a maximum of stiffness"
 
+    tube_words = Words(
+        "the wall's stiffness or thickness varies around the tube as cos n(θ − α)",
+        "of the wall's stiffness, its mass unchanged; the angle is a maximum of stiffness",
+        confused_with,
+    )
+
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        core = ring_of(files).region
         stages = [stage.name for stage in files.study.stages if stage.tests]
         return tuple(
-            Candidate(
-                self.name, name, (AMPLITUDE, angle(2 * np.pi / n)), "lamination", choice=(("harmonic", n),)
-            )
+            Candidate(self.name, name, (AMPLITUDE, angle(2 * np.pi / n)), core, choice=(("harmonic", n),))
             for name in stages[:1]
             for n in HARMONICS
         )
 
+    def tube_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        return self.candidates(files)
+
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
-        core = files.geometry.core
-        inner = (core.outer_diameter_mm / 2 - core.yoke_thickness_mm) / 1e3
+        inner = ring_of(files).slot_radius
         harmonic = int(candidate.chosen["harmonic"])
 
         def changes(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
-            yoke = region_pieces(mesh, "lamination", materials["lamination"])
+            core = core_region(materials)
+            yoke = region_pieces(mesh, core, materials[core])
             size, place = values["relative_amplitude"], values["angle_rad"]
             return (wave(mesh, yoke, place, harmonic=harmonic, amplitude=size, inner=inner),)
 

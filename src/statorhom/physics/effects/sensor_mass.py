@@ -29,6 +29,9 @@ class SensorMass(Effect):
             if test.modal_table is None and not test.weighed
         )
 
+    def tube_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        return self.candidates(files)
+
     def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         return self.candidates(files)
 

@@ -19,6 +19,8 @@ from statorhom.physics.candidate import Candidate
 from statorhom.physics.effect import Confusion, Effect
 from statorhom.physics.parameter import EffectParameter
 from statorhom.physics.pieces import hooke_pieces, region_pieces
+from statorhom.physics.ring import ring_of
+from statorhom.study.regions import core_region
 from statorhom.study.study import StudyFiles
 
 RATIO = EffectParameter("G_rz_end_ratio", 0.15, 3.0, 0.02, 20.0, "log", (0.5, 1.8), 1.0)
@@ -35,24 +37,26 @@ class StackPressureGradient(Effect):
 
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         stages = [stage.name for stage in files.study.stages if stage.tests]
-        if files.study.symmetry(0, "lamination") == "isotropic":
+        core = ring_of(files).region
+        if files.study.symmetry(0, core) == "isotropic":
             return ()
-        return tuple(Candidate(self.name, name, (RATIO,), "lamination") for name in stages[:1])
+        return tuple(Candidate(self.name, name, (RATIO,), core) for name in stages[:1])
 
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
-        length = files.geometry.core.length_mm / 1e3
+        length = ring_of(files).length
 
         def varied(mesh: HalfPitchMesh, materials: Materials, ratio: float) -> tuple[Change, ...]:
-            material = materials["lamination"]
+            core = core_region(materials)
+            material = materials[core]
             slope = (ratio - 1.0) / (ratio + 1.0)
 
             def surplus(z: np.ndarray) -> np.ndarray:
                 return slope * (2 * z / length - 1.0)
 
             along, weight = axial_modulus(material.hooke, surplus)
-            normal = hooke_pieces(mesh, "lamination", along)
-            shear = region_pieces(mesh, "lamination", material, SHEAR)
-            where = ("lamination",)
+            normal = hooke_pieces(mesh, core, along)
+            shear = region_pieces(mesh, core, material, SHEAR)
+            where = (core,)
             return gradient(mesh, normal, where, weight), gradient(mesh, shear, where, surplus)
 
         return Action(

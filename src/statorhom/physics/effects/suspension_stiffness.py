@@ -15,6 +15,7 @@ from statorhom.physics.candidate import Candidate
 from statorhom.physics.effect import Confusion, Effect, Words
 from statorhom.physics.parameter import EffectParameter, angle
 from statorhom.physics.plan import places_on, plan_of
+from statorhom.physics.ring import ring_of
 from statorhom.study.study import StudyFiles
 from statorhom.study.study_file import FREE
 
@@ -38,13 +39,17 @@ class SuspensionStiffness(Effect):
         (Confusion("local_stiffness", "the shift falls with the frequency squared"),),
     )
 
+    tube_words = Words(
+        "a test that is declared free hangs on something stiff",
+        "two radial springs on one axial line of the tube's outside, near its ends; stiffness of both together",
+        (Confusion("local_stiffness", "the split falls with the frequency squared"),),
+    )
+
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
-        return tuple(
-            Candidate(self.name, stage.name, (STIFFNESS, angle()), None, test.name)
-            for stage in files.study.stages
-            for test in stage.tests
-            if test.support == FREE
-        )
+        return _around(files, STIFFNESS)
+
+    def tube_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        return _around(files, OF_COUPONS)
 
     def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         places = places_on(files, half=True)
@@ -62,7 +67,7 @@ class SuspensionStiffness(Effect):
             each = (0.0, 0.0, 0.5 * values["stiffness_n_per_m"])
             springs = tuple(Attachment(place, stiffness=each) for place in plan.both_sides(values))
             return Action(attachments=springs, stages=stages, tests=tests)
-        length = files.geometry.core.length_mm / 1e3
+        length = ring_of(files).length
 
         def changes(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
             del materials
@@ -71,6 +76,16 @@ class SuspensionStiffness(Effect):
             return (point_springs(mesh, angles, np.array([0.1, 0.9]) * length, each),)
 
         return Action(changes=changes, stages=stages, tests=tests)
+
+
+def _around(files: StudyFiles, stiffness: EffectParameter) -> tuple[Candidate, ...]:
+    """One in every free test of a ring."""
+    return tuple(
+        Candidate("suspension_stiffness", stage.name, (stiffness, angle()), None, test.name)
+        for stage in files.study.stages
+        for test in stage.tests
+        if test.support == FREE
+    )
 
 
 EFFECT = SuspensionStiffness()

@@ -9,6 +9,8 @@ from statorhom.physics.candidate import Candidate
 from statorhom.physics.effect import Confusion, Effect, Words
 from statorhom.physics.parameter import EffectParameter
 from statorhom.physics.plan import plan_of
+from statorhom.physics.ring import tube_sizes
+from statorhom.study.stages import StageKeys
 from statorhom.study.study import StudyFiles
 
 # keys of the geometry file by section, and the step from which on they matter
@@ -42,21 +44,27 @@ class WrongInput(Effect):
         ),
     )
 
+    tube_words = coupon_words
+
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
-        masses = [
-            _candidate(stage.name, "mass_kg", stage.mass_kg, (("input", "mass_kg"),))
-            for stage in files.study.stages
-        ]
+        masses = [_mass(stage) for stage in files.study.stages]
         return (*masses, *_dimensions(files))
+
+    def tube_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
+        stage = files.study.stages[0]
+        sizes = [
+            _candidate(stage.name, key, typed, (("input", key), ("section", files.drawing.kind)), scaled)
+            for key, (typed, scaled) in tube_sizes(files).items()
+        ]
+        return (_mass(stage), *sizes)
 
     def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         stage = files.study.stages[0]
-        masses = [_candidate(stage.name, "mass_kg", stage.mass_kg, (("input", "mass_kg"),))]
         plan = plan_of(files)
         sizes = {} if plan is None else plan.typed
         kind = files.drawing.kind
         return (
-            *masses,
+            _mass(stage),
             *(_candidate(stage.name, k, v, (("input", k), ("section", kind))) for k, v in sizes.items()),
         )
 
@@ -84,15 +92,29 @@ def _dimensions(files: StudyFiles) -> list[Candidate]:
     return found
 
 
-def _candidate(stage: str, key: str, typed: float, choice: tuple[tuple[str, str | int], ...]) -> Candidate:
+def _mass(stage: StageKeys) -> Candidate:
+    return _candidate(stage.name, "mass_kg", stage.mass_kg, (("input", "mass_kg"),))
+
+
+def _candidate(
+    stage: str,
+    key: str,
+    typed: float,
+    choice: tuple[tuple[str, str | int], ...],
+    scaled: float | None = None,
+) -> Candidate:
+    """A number that is wrong by factors of its part `scaled`, by default of itself."""
+    part = typed if scaled is None else scaled
+    factors = (1 / 3, 1 / SPREAD, 0.98, 1.02, SPREAD, 3.0)
+    lower, low90, *starts, high90, upper = sorted(typed + (factor - 1.0) * part for factor in factors)
     value = EffectParameter(
         "value",
-        typed / SPREAD,
-        typed * SPREAD,
-        typed / 3,
-        typed * 3,
+        low90,
+        high90,
+        lower,
+        upper,
         "log",
-        (0.98 * typed, 1.02 * typed),
+        tuple(starts),
         typed,
         negligible=min(TOLERANCE_MM, TOLERANCE * typed) if key.endswith("_mm") else 0.0,
     )

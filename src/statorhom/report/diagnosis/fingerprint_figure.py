@@ -77,7 +77,7 @@ def fingerprint_figure(rows: Sequence[FeatureRow], changed: bool) -> Picture:
     tidy(axes, "x")
     left = f" The {MOST} largest of {len(every)} are shown." if len(every) > MOST else ""
     lines = (
-        " “Two lines”: where a mode’s two lines lie apart and at which angle they stand; on a perfectly even stator "
+        " “Two lines”: where a mode’s two lines lie apart and at which angle they stand; on a perfectly even ring "
         "they would coincide."
     )
     met = len(found) - len(every)

@@ -34,13 +34,17 @@ def diagnosis_sections(diagnosis: Diagnosis, details: Details) -> tuple[Section,
 def diagnosis_document(diagnosis: Diagnosis, details: Details) -> Document:
     """A report of the diagnosis alone."""
     return Document(
-        "What the model of a stator left out"
-        if details.plan is None
-        else "What the model of a test piece left out",
+        f"What the model of a {_body(details)} left out",
         one_line(diagnosis.study),
         diagnosis_facts(diagnosis, details),
         diagnosis_sections(diagnosis, details),
     )
+
+
+def _body(details: Details) -> str:
+    if details.plan is not None:
+        return "test piece"
+    return "stator" if details.machine is None else details.machine.kind
 
 
 def diagnosis_facts(diagnosis: Diagnosis, details: Details) -> tuple[tuple[str, str], ...]:

@@ -1,4 +1,4 @@
-"""The unrolled stator: where its measured shapes contradict the model, and where a named effect sits."""
+"""The unrolled stator or tube: where its measured shapes contradict the model, and where a named effect sits."""
 
 from __future__ import annotations
 
@@ -62,8 +62,14 @@ def place_figure(
     bottom = grid[-1, 0]
     bottom.set_xlim(0, WHOLE_TURN)
     bottom.set_xticks(range(0, 361, 45))
-    bottom.set_xlabel("angle around the stator, counted from the centre of tooth 0 (°)")
+    bottom.set_xlabel(_angle_words(machine))
     return Picture(svg(figure), "svg", 170.0, _alt(placed, row), text(_caption(placed, row, around)))
+
+
+def _angle_words(machine: MachineRow | None) -> str:
+    if machine is not None and machine.slots == 0:
+        return f"angle around the {machine.kind}, counted from +x towards +y (°)"
+    return "angle around the stator, counted from the centre of tooth 0 (°)"
 
 
 def _colours(axes: Axes, row: MapRow) -> None:
@@ -120,7 +126,7 @@ def _around(axes: Axes, angles: Sequence[AngleRow], placed: Sequence[EffectResul
 
 
 def _caption(placed: Sequence[EffectResult], row: MapRow | None, around: bool) -> str:
-    parts = ["The back of the core, cut open and unrolled."]
+    parts = ["The outside, cut open and unrolled."]
     if row is not None:
         parts.append(
             f"Colour (test {row.test}): where the measured motion contradicts the model most. Sensors on the outside "
@@ -138,6 +144,4 @@ def _caption(placed: Sequence[EffectResult], row: MapRow | None, around: bool) -
 
 def _alt(placed: Sequence[EffectResult], row: MapRow | None) -> str:
     what = " and ".join(dict.fromkeys(effect_words(e.effect) for e in placed)) or "the contradiction"
-    return one_line(
-        f"where {what} lies on the unrolled stator" + ("" if row is None else f", test {row.test}")
-    )
+    return one_line(f"where {what} lies on the unrolled body" + ("" if row is None else f", test {row.test}"))

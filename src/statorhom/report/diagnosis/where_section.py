@@ -1,4 +1,4 @@
-"""Where the model and the measurements differ: step, test, modes, and the place on the unrolled stator."""
+"""Where the model and the measurements differ: step, test, modes, and the place on the unrolled body."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def where_section(d: Diagnosis, details: Details) -> Section:
                 text(
                     "A mode is told by its row in the table."
                     if all(len(mode) == 1 for mode in m.modes)
-                    else "A mode is named (r, n): r waves around the stator, n places along its axis that stand still."
+                    else "A mode is named (r, n): r waves around it, n places along its axis that stand still."
                 ),
                 "note",
             )
@@ -84,7 +84,7 @@ def _regions(row: MapRow) -> Table:
         for region, part in sorted(row.regions.items(), key=lambda item: -float(np.sum(item[1])))
     ]
     caption = (
-        f"Share of the contradiction between measured motion and model, test {row.test}. The quarter of the stator "
+        f"Share of the contradiction between measured motion and model, test {row.test}. The quarter of it "
         f"where it is largest holds {100 * worst:.0f} % of it; spread evenly it would be 25 %."
     )
     return Table((Column(text("region")), Column(text("share"), "right")), tuple(rows), text(caption))
@@ -97,8 +97,8 @@ def _no_picture(d: Diagnosis, details: Details) -> str:
     if details.plan is not None:
         return "What is missing has no place on the body, or these measurements do not tell it."
     if "split" in seen or d.effects:
-        return "What is missing has no place around the stator, or these measurements do not tell it."
+        return "What is missing has no place around the axis, or these measurements do not tell it."
     return (
-        "Tables of frequencies alone do not tell a place on the stator. Recordings at several points around the "
+        "Tables of frequencies alone do not tell a place around the axis. Recordings at several points around the "
         "circumference (FRFs) would."
     )

@@ -112,11 +112,11 @@ def place_words(effect: EffectResult) -> str:
     if place is not None and place.angle_deg is not None:
         sd = place.angle_sd_deg or 0.0
         also = [f"{a:.0f}°" for a in place.angle_ambiguity_deg[1:]]
-        parts.append(f"at {place.angle_deg:.0f}° ± {max(Z90 * sd, 0.5):.1f}° around the stator")
+        parts.append(f"at {place.angle_deg:.0f}° ± {max(Z90 * sd, 0.5):.1f}° around the axis")
         if also:
             parts[-1] += f" (or, equally possible: {', '.join(also)})"
     if place is not None and place.z_mm is not None and place.z_sd_mm is not None:
-        parts.append(f"{place.z_mm:.0f} ± {_whole_mm(place.z_sd_mm)} mm above the core’s lower end")
+        parts.append(f"{place.z_mm:.0f} ± {_whole_mm(place.z_sd_mm)} mm above the lower end")
     return ", ".join(parts)
 
 
