@@ -153,14 +153,17 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: floa
     best = min(found, key=_objective, default=None)
     if best is not None and cheap:
         best = min([best, *_beside_later_steps(best)], key=_objective)
-    if best is not None and best.objective > known and price((0.0, list(starts))) == CHEAP:
-        best = min([best, *_elsewhere(starts[0], worth)], key=_objective)
+    # beside a poor model the strongest effects are sought all over the prior in any case
+    astray = best is not None and best.objective > known and not far
+    if best is not None and astray and np.isinf(worth) and price((0.0, list(starts))) == CHEAP:
+        best = min([best, *_elsewhere(starts[0])], key=_objective)
     return best
 
 
-def _elsewhere(start: Start, worth: float) -> list[Refit]:
+def _elsewhere(start: Start) -> list[Refit]:
     """Optima all over the prior, for an effect that explains less than its absence stands in no valley of its own."""
-    return [r for other in narrowed_starts(start) for r in _kept(_rival(other, worth))]
+    found = (refitted(other.hypothesis, other.z) for other in narrowed_starts(start))
+    return [r for r in found if r is not None]
 
 
 def _beside_later_steps(best: Refit) -> list[Refit]:
