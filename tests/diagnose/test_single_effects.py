@@ -66,3 +66,32 @@ def tried(monkeypatch: pytest.MonkeyPatch, straight: float, known: float) -> tup
 def test_what_leaves_more_than_the_declared_model_is_no_optimum(monkeypatch: pytest.MonkeyPatch) -> None:
     assert tried(monkeypatch, 450.0, known=180.0) == (30.0, ["straight", "wide"])
     assert tried(monkeypatch, 150.0, known=180.0) == (150.0, ["straight"])
+
+
+def sought(monkeypatch: pytest.MonkeyPatch, near: float, *, price: int = CHEAP, **named: Any) -> float:
+    """Objective of the best refit where the near optima leave `near`, and the one of a far valley 20."""
+    far_away: Any = SimpleNamespace(hypothesis="far away", z=None)
+    monkeypatch.setattr(module, "price", lambda _: price)
+    monkeypatch.setattr(module, "is_poor", lambda _: False)
+    monkeypatch.setattr(module, "narrowed_starts", lambda _: [far_away])
+    monkeypatch.setattr(module, "_through", lambda _: SimpleNamespace(objective=near))
+    monkeypatch.setattr(module, "_rival", lambda *_: SimpleNamespace(objective=near))
+    monkeypatch.setattr(module, "_beside_later_steps", lambda _: [])
+    objectives = {"near": near, "far away": 20.0}
+    monkeypatch.setattr(module, "refitted", lambda name, _: SimpleNamespace(objective=objectives[name]))
+    monkeypatch.setattr(module, "explained", lambda *_: SimpleNamespace(adequacy_but_one=0.5))
+    start: Any = SimpleNamespace(hypothesis="near", z=None)
+    known = {"worth": np.inf, "far": False, "known": 180.0} | named
+    best: Any = module._best_refit([start], **known)
+    return float(best.objective)
+
+
+def test_an_effect_that_leaves_more_than_its_absence_is_sought_all_over_the_prior(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert sought(monkeypatch, 450.0) == 20.0
+    assert sought(monkeypatch, 150.0) == 150.0
+    # something explains the misfit already, a solution is dear, or the strongest are sought everywhere in any case
+    assert sought(monkeypatch, 450.0, worth=90.0) == 450.0
+    assert sought(monkeypatch, 450.0, price=MIDDLING) == 450.0
+    assert sought(monkeypatch, 450.0, far=True) == 450.0

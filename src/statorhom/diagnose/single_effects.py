@@ -137,7 +137,8 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: floa
     known : its objective: an effect that may be absent leaves no more, and what does is no optimum.
     """
     found: list[Refit] = []
-    cheap = far and np.isinf(worth) and price((0.0, list(starts))) == CHEAP
+    leads = np.isinf(worth) and price((0.0, list(starts))) == CHEAP
+    cheap = far and leads
     for start in starts:
         less = bool(found) and found[-1].objective <= known
         if less and not cheap and explained(found[-1], {}).adequacy_but_one > ADEQUATE:
@@ -151,13 +152,13 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: floa
             if found and not is_poor(found[-1]) and not cheap and found[-1].objective <= known:
                 break
     best = min(found, key=_objective, default=None)
+    others: list[Refit] = []
     if best is not None and cheap:
-        best = min([best, *_beside_later_steps(best)], key=_objective)
-    # beside a poor model the strongest effects are sought all over the prior in any case
-    astray = best is not None and best.objective > known and not far
-    if best is not None and astray and np.isinf(worth) and price((0.0, list(starts))) == CHEAP:
-        best = min([best, *_elsewhere(starts[0])], key=_objective)
-    return best
+        others = _beside_later_steps(best)
+    elif best is not None and leads and best.objective > known:
+        # beside a poor model the strongest effects are sought all over the prior in any case
+        others = _elsewhere(starts[0])
+    return min([best, *others], key=_objective) if best is not None else None
 
 
 def _elsewhere(start: Start) -> list[Refit]:
