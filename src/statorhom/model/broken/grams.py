@@ -15,7 +15,7 @@ import numpy as np
 from statorhom.model.broken.pieces import Pieces
 from statorhom.model.broken.waves import Waves
 
-KEPT = 128  # groups whose products are kept
+KEPT_BYTES = 2**31  # of products that are kept: those of a large basis take 60 MB a group
 
 
 @dataclass(frozen=True)
@@ -24,6 +24,11 @@ class Gram:
 
     hermitian: np.ndarray
     transposed: np.ndarray
+
+    @property
+    def size(self) -> int:
+        """Bytes."""
+        return self.hermitian.nbytes + self.transposed.nbytes
 
 
 @dataclass(frozen=True)
@@ -38,9 +43,15 @@ class GramCache:
         if key not in self.known:
             # the pieces are kept too, so that their id stays theirs
             self.known[key] = (pieces, _gram(pieces.take(group), rows, columns))
-            if len(self.known) > KEPT:
-                self.known.popitem(last=False)
+            self._forget()
         return self.known[key][1]
+
+    def _forget(self) -> None:
+        """Drop the oldest, but never the one that is needed now."""
+        size = sum(gram.size for _, gram in self.known.values())
+        while size > KEPT_BYTES and len(self.known) > 1:
+            _, (_, oldest) = self.known.popitem(last=False)
+            size -= oldest.size
 
 
 def project(cache: GramCache, pieces: Pieces, weights: np.ndarray, rows: Waves, columns: Waves) -> np.ndarray:
