@@ -153,14 +153,15 @@ def run(case: Case) -> dict[str, Any]:
     half = mesh_step(stator_geometry(read_geometry(GEOMETRY), GEOMETRY).step(case.kinds), case.density)
     pitch = 2 * np.pi / half.slots
     basis, setup = timed(lambda: symmetric_basis(assemble(half), materials(), HIGHEST_HZ))
+    # at other pitches than those that the basis is prepared at, and at all of its places in the pitch
+    angles = [1.0 + pitch * (k + case.offsets[k % len(case.offsets)]) for k in range(7, 7 + REPEATS)]
     # one solution from nothing, for those who want no other
-    alone, once = timed(lambda: solve_broken(basis, case.changes(half, 1.0 + 7 * pitch)))
+    alone, once = timed(lambda: solve_broken(basis, case.changes(half, angles[0])))
     # its basis has kept what it needed: the preparation for many starts from another
     basis = symmetric_basis(assemble(half), materials(), HIGHEST_HZ)
     trainings = [case.changes(half, 1.0 + offset * pitch) for offset in case.offsets]
     ready, prepare = timed(lambda: prepared(basis, trainings))
-    # at other pitches than those that the basis was prepared at, and once between its places in the pitch
-    angles = [1.0 + pitch * (k + case.offsets[k % len(case.offsets)]) for k in range(7, 7 + REPEATS)]
+    # and once between these places
     between = solve_broken(ready, case.changes(half, 2.345), None)
     runs = [timed(lambda a=a: solve_broken(ready, case.changes(half, a), None)) for a in angles]
     modes = runs[0][0]
