@@ -74,3 +74,23 @@ def test_the_table_has_the_frequencies_without_the_sensor(tmp_path: Path) -> Non
         assert 0.0 < (mode.frequency_without_sensor_sd_hz or 0.0) < 1e-3 * frequency
         assert mode.frequency_hz < frequency * (1 - 5e-4)
         assert mode.loss_factor_sd is not None
+
+
+def test_a_mass_of_nothing_has_no_uncertain_axial_part(
+    loaded: Extraction, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where nothing is known of the axial motion; a product of zero and infinity would be a warning, an error here."""
+    from dataclasses import replace
+
+    from statorhom.extraction import sensor_trend as module
+
+    trend_of, square_sd = module.pole_shift_trend, module._square_sd
+
+    def without(*args: object) -> object:
+        found = trend_of(*args)  # type: ignore[arg-type]
+        return replace(found, joint=replace(found.joint, mass_kg=0.0))
+
+    monkeypatch.setattr(module, "pole_shift_trend", without)
+    monkeypatch.setattr(module, "_square_sd", lambda *args: square_sd(*args) + np.inf)
+    trend = sensor_trend(loaded.modes, {0: (2, 0), 1: (2, 1)}, loaded.points, loaded.references[0])
+    assert trend is not None and np.all(np.isfinite(trend.bare_sd_hz))

@@ -112,7 +112,9 @@ def sensor_trend(
     square = np.sum(amplitude**2, axis=2)
     low, high = shifts.joint.ci90_kg
     of_mass = square.mean(axis=0) * (high - low) / _CI90 / 2
-    of_axial = shifts.joint.mass_kg * np.array([wave.square_sd for wave in waves.values()]) / 2
+    # infinite where nothing is known of the axial motion, which no mass at all makes up for
+    spread = np.array([wave.square_sd for wave in waves.values()])
+    of_axial = np.where(shifts.joint.mass_kg > 0, spread, 0.0) * shifts.joint.mass_kg / 2
     of_pole = np.array([modes[m].frequency_sd_hz / modes[m].frequency_hz for m in waves])
     bare_sd = shifts.bare_hz * np.sqrt(of_mass**2 + of_axial**2 + of_pole**2)
     return SensorTrend(tuple(waves), shifts, sd / frequency, square, shifts.bare_hz, bare_sd)
