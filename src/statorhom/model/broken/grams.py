@@ -15,7 +15,7 @@ import numpy as np
 from statorhom.model.broken.pieces import Pieces
 from statorhom.model.broken.waves import Waves
 
-KEPT_BYTES = 2**31  # of products that are kept: those of a large basis take 60 MB a group
+KEPT_BYTES = 2**30  # of products that each basis keeps: those of a large one take 60 MB a group
 
 
 @dataclass(frozen=True)
