@@ -1,8 +1,9 @@
 """Build the basis of a cell: greedy snapshots at the largest certified error, then no more than they need.
 
-A snapshot is an eigenproblem of the full model. Where that is dear, as of blocks, only the softest material is solved,
-which has the most modes in the band; at all others the basis grows by corrections A⁻¹r of the residuals r of its own
-Ritz vectors (E. R. Davidson, J. Comput. Phys. 17 (1975) 87), for which the factorization of the norm serves.
+A snapshot is an eigenproblem of the full model. Where that is dear, as of blocks, and materials differ in few ways, only
+the softest one is solved, which has the most modes in the band; at all others the basis grows by corrections A⁻¹r of the
+residuals r of its own Ritz vectors (E. R. Davidson, J. Comput. Phys. 17 (1975) 87), for which the factorization of the
+norm serves.
 """
 
 from __future__ import annotations
@@ -33,6 +34,8 @@ AT_ONCE = 16  # certificates that are computed side by side
 # certificate is large where a new Ritz value comes near another
 SLOW, PATIENCE = 0.5, 3
 CORRECTIONS = 4  # as many rounds of corrections as snapshots are allowed
+# directions in which materials move up to which corrections are used: a box of many needs more vectors than are cheap
+FEW, MOVES = 6, 1e-2
 RESOLVED = 1e-5  # of the tolerance: the part of the energy that residuals need not resolve; gaps magnify it
 
 
@@ -58,11 +61,18 @@ def local_basis(
     known : modes at some of the training materials.
     """
     builder = _Builder(terms, training, highest_hz, tolerance, known)
-    if terms.parity == MIRROR:
+    if terms.parity == MIRROR and _directions(builder.weights) <= FEW:
         _correct(builder, CORRECTIONS * most)
     else:
         _collect(builder, most)
     return LocalBasis(builder.basis, tuple(builder.room(list(members)) for members in rooms))
+
+
+def _directions(weights: np.ndarray) -> int:
+    """In how many independent directions weights (n, t) lie that matter, each in units of its largest."""
+    scale = np.abs(weights).max(axis=0)
+    singular = np.linalg.svd(weights[:, scale > 0] / scale[scale > 0], compute_uv=False)
+    return int(np.count_nonzero(singular > MOVES * singular[0]))
 
 
 def _collect(builder: _Builder, most: int) -> None:
