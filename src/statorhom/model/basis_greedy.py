@@ -1,9 +1,9 @@
 """Build the basis of a cell: greedy snapshots at the largest certified error, then no more than they need.
 
-A snapshot is an eigenproblem of the full model. Where that is dear, as of blocks, and materials differ in few ways, only
-the softest one is solved, which has the most modes in the band; at all others the basis grows by corrections A⁻¹r of the
-residuals r of its own Ritz vectors (E. R. Davidson, J. Comput. Phys. 17 (1975) 87), for which the factorization of the
-norm serves.
+A snapshot is an eigenproblem of the full model. Where that is dear, as of blocks, and materials differ in few ways,
+only the softest one is solved, which has the most modes in the band; at all others the basis grows by corrections A⁻¹r
+of the residuals r of its own Ritz vectors (E. R. Davidson, J. Comput. Phys. 17 (1975) 87), for which the factorization
+of the norm serves.
 """
 
 from __future__ import annotations
