@@ -35,7 +35,7 @@ class Effect(ABC):
 
     Class attributes: `name` (formats.md), `summary` (one sentence for the report), `citation`, `confused_with`, and
     `note`, which says how magnitudes are modelled where that matters; `coupon_words` where plates, beams and wings
-    ask for others, and `tube_words` where tubes do.
+    ask for others, and `tube_words` where tubes do; `on_tubes` where a tube has it in all ways that a stator has.
     """
 
     name: ClassVar[str]
@@ -45,14 +45,15 @@ class Effect(ABC):
     note: ClassVar[str | None] = None
     coupon_words: ClassVar[Words | None] = None
     tube_words: ClassVar[Words | None] = None
+    on_tubes: ClassVar[bool] = False
 
     @abstractmethod
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         """All ways in which the effect may be present in a stator's study; none where it is declared or cannot be."""
 
-    def tube_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:  # noqa: ARG002
+    def tube_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         """The same of a study of a tube, whose wall is the core of a ring; none where it needs more of a stator."""
-        return ()
+        return self.candidates(files) if self.on_tubes else ()
 
     def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:  # noqa: ARG002
         """The same of a study of a plate, a beam or a wing; none where the effect is one of stators alone."""

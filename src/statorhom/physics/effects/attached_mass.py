@@ -26,6 +26,7 @@ LARGEST = 0.2  # of the stage's mass
 
 class AttachedMass(Effect):
     name = "attached_mass"
+    on_tubes = True
     summary = "a lump on the back of the core is not in the model"
     citation = "Fox (1990), J. Sound Vib. 142, 227; Soedel (2004), Vibrations of Shells and Plates"
     confused_with = (
@@ -66,9 +67,6 @@ class AttachedMass(Effect):
             place = height(ring.length)
             found.append(Candidate(self.name, stage.name, (mass, HEIGHT_MM, angle(), place), ring.region))
         return tuple(found)
-
-    def tube_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
-        return self.candidates(files)
 
     def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         places = places_on(files)

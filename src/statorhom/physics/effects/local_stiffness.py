@@ -30,6 +30,7 @@ RATIO = EffectParameter("stiffness_ratio", 0.3, 2.5, 0.02, 12.0, "log", (0.6, 1.
 
 class LocalStiffness(Effect):
     name = "local_stiffness"
+    on_tubes = True
     summary = "an axial strip of the back of the core is stiffer or softer: a weld, notch, keyway or cut-out"
     citation = "Fox (1990), J. Sound Vib. 142, 227 (slightly imperfect rings)"
     confused_with = (
@@ -59,9 +60,6 @@ class LocalStiffness(Effect):
         ring = ring_of(files)
         depth = _depth(1e3 * ring.yoke)
         return tuple(Candidate(self.name, name, (RATIO, angle(), depth), ring.region) for name in stages[:1])
-
-    def tube_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
-        return self.candidates(files)
 
     def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         plan = plan_of(files)

@@ -14,6 +14,7 @@ ORDERS, NODE_PLANES = range(6), range(4)
 
 class MislabelledMode(Effect):
     name = "mislabelled_mode"
+    on_tubes = True
     summary = "a mode carries the wrong order in its table"
     citation = "Allemang (2003), Sound & Vibration 37(8), 14"
     confused_with = (Confusion("interlaminar_shear", "a second mode of the same kind"),)
@@ -33,9 +34,6 @@ class MislabelledMode(Effect):
             for n in NODE_PLANES
             if (r, n) != (mode.order, mode.axial) and r + n > 1
         )  # fmt: skip
-
-    def tube_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
-        return self.candidates(files)
 
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
         key = candidate.chosen

@@ -26,6 +26,7 @@ AMPLITUDE = EffectParameter("relative_amplitude", 0.003, 0.05, 1e-4, 0.3, "log",
 
 class Ovality(Effect):
     name = "ovality"
+    on_tubes = True
     summary = "the yoke's stiffness or thickness varies around the stator as cos n(θ − α)"
     citation = "Hwang, Fox and McWilliam (1999), J. Sound Vib. 220, 497 (rings of varying profile)"
     confused_with = (
@@ -48,9 +49,6 @@ class Ovality(Effect):
             for name in stages[:1]
             for n in HARMONICS
         )
-
-    def tube_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
-        return self.candidates(files)
 
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
         inner = ring_of(files).slot_radius

@@ -16,6 +16,7 @@ MASS = EffectParameter("mass_kg", 0.001, 0.03, 1e-4, 0.2, "log", (0.008,), None)
 
 class SensorMass(Effect):
     name = "sensor_mass"
+    on_tubes = True
     summary = "the roving accelerometer's mass moves the poles from point to point"
     citation = "Ewins (2000), Modal Testing, ch. 3"
     confused_with = (Confusion("attached_mass", "the poles of all points agree"),)
@@ -28,9 +29,6 @@ class SensorMass(Effect):
             for test in stage.tests
             if test.modal_table is None and not test.weighed
         )
-
-    def tube_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
-        return self.candidates(files)
 
     def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         return self.candidates(files)
