@@ -22,6 +22,7 @@ from statorhom.diagnose.decision import (
 )
 from statorhom.diagnose.explanations import (
     ADEQUATE,
+    WELL,
     Explanation,
     effect_evidence,
     nothing,
@@ -126,7 +127,8 @@ def _find(
     leading = leading_effects(approach, base, candidates, counts, settings.seed)
     found = list(leading.found)
     if leading.misfit_is_real:
-        if found and found[0].adequacy_but_one < ADEQUATE:
+        # a misfit that is hardly one of noise may be a side valley, and rivals are compared in the deepest
+        if found and found[0].adequacy_but_one < WELL:
             found = approach.refined(found, leading.base.valleys, counts)
         # one gross error asks for no second effect
         if found and found[0].adequacy_but_one < ADEQUATE:

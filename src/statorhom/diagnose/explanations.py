@@ -24,6 +24,7 @@ _H = TypeVar("_H", bound=AnyHypothesis)
 COARSE = 0.03  # discrepancy with which wide valleys are found
 NARROWING = (0.01, 0.003)
 ADEQUATE = 0.01  # chance of a misfit above which nothing is left to explain
+WELL = 0.1  # and above which no deeper valley is sought
 UNCERTAIN = ("loss", "shape")  # kinds of features: many and uncertain, they would hide a frequency
 ROWS = 8  # of which one may be grossly wrong
 DRAWS = 4000

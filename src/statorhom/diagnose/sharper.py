@@ -12,7 +12,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from statorhom.diagnose.explanations import ADEQUATE, Explanation, explained, refitted, through_wide_valleys
+from statorhom.diagnose.explanations import (
+    ADEQUATE,
+    WELL,
+    Explanation,
+    explained,
+    refitted,
+    through_wide_valleys,
+)
 from statorhom.diagnose.prediction import acted_materials
 from statorhom.diagnose.refit import Refit, evaluated
 from statorhom.diagnose.stage_model import mesh_error, with_reference
@@ -22,9 +29,9 @@ MOST = 3  # explanations that get models of their own before a second effect is 
 ROUNDS = 3  # models of one explanation
 SETTLED = 2.0  # of the objective, that another one must have gained
 WORSE = 10.0  # of the objective, by which a model of its own is worse than the common one
-WELL = 0.1  # chance of the misfit from which on no deeper valley is sought
 VAGUE = 1.0  # prior standard deviation of a logarithm from which on a constant may be far on either side
 ASIDE = 1.5  # prior standard deviations to either side where such a constant is tried
+RIVAL = 10.0  # log evidence behind a first one that is adequate already, up to which the others get models of their own
 BEHIND = 150.0  # log evidence by which others are too far behind for that
 
 
@@ -76,11 +83,15 @@ def refined(
     valleys : constants at other optima of the declared model.
     counts : effect → number of its candidates.
     """
-    top = explanations[0].log_evidence if explanations else 0.0
-    found = [
-        _deepest(e, valleys, counts) if i < MOST and e.log_evidence > top - BEHIND else e
-        for i, e in enumerate(explanations)
-    ]
+    if not explanations:
+        return []
+    adequate = explanations[0].adequacy_but_one > ADEQUATE
+    least = explanations[0].log_evidence - (RIVAL if adequate else BEHIND)
+
+    def better(e: Explanation) -> Explanation:
+        return explained(sharpened(e).refit, counts) if adequate else _deepest(e, valleys, counts)
+
+    found = [better(e) if i < MOST and e.log_evidence > least else e for i, e in enumerate(explanations)]
     return sorted(found, key=lambda e: -e.log_evidence)
 
 
