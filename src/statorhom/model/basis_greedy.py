@@ -35,7 +35,7 @@ AT_ONCE = 16  # certificates that are computed side by side
 SLOW, PATIENCE = 0.5, 3
 CORRECTIONS = 4  # as many rounds of corrections as snapshots are allowed
 # directions in which materials move up to which corrections are used: a box of many needs more vectors than are cheap
-FEW, MOVES = 6, 1e-2
+FEW, MOVES = 4, 1e-2
 RESOLVED = 1e-5  # of the tolerance: the part of the energy that residuals need not resolve; gaps magnify it
 
 
