@@ -49,7 +49,7 @@ class Approach:
 
 
 def _ring_final(explanation: Explanation) -> Explanation:
-    return at_likelier_height(sharpened(explanation))
+    return at_likelier_height(explanation if explanation.settled else sharpened(explanation))
 
 
 def _ring_pictures(

@@ -41,12 +41,14 @@ class Explanation(Generic[H]):
     refit : of all constants.
     log_evidence : with the prior over the effects' candidates.
     compared : refit by which it is compared with others, where that is another one.
+    settled : whether it stands in a model of its own, and in the deepest valley that was found there.
     """
 
     candidates: tuple[Candidate, ...]
     refit: Refit[H]
     log_evidence: float
     compared: Refit[H] | None = None
+    settled: bool = False
 
     @property
     def effects(self) -> tuple[str, ...]:

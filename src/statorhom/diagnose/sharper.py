@@ -20,6 +20,7 @@ from statorhom.diagnose.explanations import (
     refitted,
     through_wide_valleys,
 )
+from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.prediction import acted_materials
 from statorhom.diagnose.refit import Refit, evaluated
 from statorhom.diagnose.stage_model import mesh_error, with_reference
@@ -35,10 +36,15 @@ RIVAL = 10.0  # log evidence behind a first one that is adequate already, up to 
 BEHIND = 150.0  # log evidence by which others are too far behind for that
 
 
-def sharpened(explanation: Explanation) -> Explanation:
+def sharpened(explanation: Explanation, *, leads: bool = True) -> Explanation:
     """The same with basis and mesh factors of its own materials, anew while that explains more.
 
     What breaks the symmetry is solved at the reference: where that was far off, the constants move with it.
+
+    Parameters
+    ----------
+    explanation : a refit.
+    leads : whether constants are tried on their other sides too where that is dear.
     """
     found = _sharpened(explanation)
     for _ in range(ROUNDS - 1):
@@ -46,7 +52,8 @@ def sharpened(explanation: Explanation) -> Explanation:
         if found.adequacy > ADEQUATE or gained < SETTLED:
             break
         explanation, found = found, _sharpened(found)
-    if found.adequacy > WELL:
+    found = replace(found, settled=True)
+    if found.adequacy > WELL or not (leads or _is_cheap(found.refit)):
         return found
     deeper = _on_other_sides(found.refit)
     return found if deeper is found.refit else _sharpened(replace(found, refit=deeper))
@@ -54,15 +61,7 @@ def sharpened(explanation: Explanation) -> Explanation:
 
 def _sharpened(explanation: Explanation) -> Explanation:
     r = explanation.refit
-    hypothesis = r.hypothesis
-    values, actions = hypothesis.study.constants.values(r.z[: hypothesis.constants]), hypothesis.actions(r.z)
-    stages = []
-    for stage in hypothesis.study.stages:
-        materials = acted_materials(hypothesis.study, stage, values, actions)
-        near = with_reference(stage, materials)
-        error = mesh_error(stage.setup, near.ring, materials, stage.density)
-        stages.append(near.with_error(error))
-    moved = replace(hypothesis, study=hypothesis.study.with_stages(tuple(stages)), held=None)
+    moved = _own_model(r)
     again = refitted(moved, r.z)
     if again is None or again.objective > r.objective + WORSE:
         # other mesh factors may have put the constants onto a slope of another valley
@@ -70,6 +69,20 @@ def _sharpened(explanation: Explanation) -> Explanation:
         # and where two modes come near each other, a mesh factor may be that of the other one
         again = min((x for x in (again, wide, r) if x is not None), key=lambda x: x.objective)
     return replace(explanation, refit=again)
+
+
+def _own_model(r: Refit, *, mesh_known: bool = False) -> Hypothesis:
+    """With basis and, unless they hardly differ, mesh factors of its own materials; to be paired anew."""
+    hypothesis = r.hypothesis
+    values, actions = hypothesis.study.constants.values(r.z[: hypothesis.constants]), hypothesis.actions(r.z)
+    stages = []
+    for stage in hypothesis.study.stages:
+        materials = acted_materials(hypothesis.study, stage, values, actions)
+        near = with_reference(stage, materials)
+        if not mesh_known:
+            near = near.with_error(mesh_error(stage.setup, near.ring, materials, stage.density))
+        stages.append(near)
+    return replace(hypothesis, study=hypothesis.study.with_stages(tuple(stages)), held=None)
 
 
 def refined(
@@ -89,14 +102,21 @@ def refined(
     least = explanations[0].log_evidence - (RIVAL if adequate else BEHIND)
 
     def better(e: Explanation) -> Explanation:
-        return explained(sharpened(e).refit, counts) if adequate else _deepest(e, valleys, counts)
+        leads = e is explanations[0]
+        own = sharpened(e, leads=leads)
+        return _settled((own if adequate else _deepest(own, valleys, counts)).refit, counts)
 
     found = [better(e) if i < MOST and e.log_evidence > least else e for i, e in enumerate(explanations)]
     return sorted(found, key=lambda e: -e.log_evidence)
 
 
-def _deepest(explanation: Explanation, valleys: Sequence[np.ndarray], counts: dict[str, int]) -> Explanation:
-    best = near = sharpened(explanation).refit
+def _settled(best: Refit, counts: dict[str, int]) -> Explanation:
+    return replace(explained(best, counts), settled=True)
+
+
+def _deepest(own: Explanation, valleys: Sequence[np.ndarray], counts: dict[str, int]) -> Explanation:
+    """From the constants of other valleys too."""
+    best = own.refit
     n = best.hypothesis.constants
     starts = [best.z, *(np.r_[v, best.z[n:]] for v in valleys)]
     for start in starts:
@@ -106,7 +126,7 @@ def _deepest(explanation: Explanation, valleys: Sequence[np.ndarray], counts: di
         if again is not None and again.objective < best.objective:
             best = again
     # models cost more than refits: another one only where the valley is another
-    return explained(best if best is near else sharpened(explained(best, counts)).refit, counts)
+    return own if best is own.refit else sharpened(replace(own, refit=best), leads=False)
 
 
 def _on_other_sides(best: Refit) -> Refit:
@@ -126,10 +146,15 @@ def _on_other_sides(best: Refit) -> Refit:
 def _from_there(best: Refit, start: np.ndarray) -> Refit | None:
     """The refit from other constants; what breaks the symmetry is solved there, for it does not move with them."""
     blank = replace(best.hypothesis, held=None)
-    if not any(action.changes for action in blank.actions(start)):
+    if _is_cheap(best):
         return refitted(blank, start, worth=best.objective)
     try:
         there = evaluated(blank, start)
     except (StatorhomError, KeyError):
         return None
-    return _sharpened(Explanation(best.hypothesis.candidates, there, 0.0)).refit
+    return refitted(_own_model(there, mesh_known=True), start, worth=best.objective)
+
+
+def _is_cheap(found: Refit) -> bool:
+    """Whether nothing breaks the symmetry."""
+    return not any(action.changes for action in found.hypothesis.actions(found.z))
