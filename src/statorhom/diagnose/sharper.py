@@ -19,11 +19,13 @@ from statorhom.diagnose.explanations import (
     explained,
     refitted,
     through_wide_valleys,
+    widened,
 )
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.prediction import acted_materials
 from statorhom.diagnose.refit import Refit, evaluated
 from statorhom.diagnose.stage_model import mesh_error, with_reference
+from statorhom.diagnose.valleys import APART, FAR_BEHIND
 from statorhom.errors import StatorhomError
 
 MOST = 3  # explanations that get models of their own before a second effect is sought
@@ -117,16 +119,26 @@ def _settled(best: Refit, counts: dict[str, int]) -> Explanation:
 def _deepest(own: Explanation, valleys: Sequence[np.ndarray], counts: dict[str, int]) -> Explanation:
     """From the constants of other valleys too."""
     best = own.refit
-    n = best.hypothesis.constants
-    starts = [best.z, *(np.r_[v, best.z[n:]] for v in valleys)]
-    for start in starts:
+    hypothesis, n = best.hypothesis, best.hypothesis.constants
+    tried: list[Refit] = []
+    for start in [best.z, *(np.r_[v, best.z[n:]] for v in valleys)]:
         if explained(best, counts).adequacy > WELL:
             break
-        again = through_wide_valleys(best.hypothesis, start)
-        if again is not None and again.objective < best.objective:
+        rough = widened(hypothesis, start)
+        if rough is None or not _is_news(rough, tried):
+            continue
+        tried.append(rough)
+        again = through_wide_valleys(hypothesis, start, rough)
+        if again is not None and again.objective < best.objective - SETTLED:
             best = again
     # models cost more than refits: another one only where the valley is another
     return own if best is own.refit else sharpened(replace(own, refit=best), leads=False)
+
+
+def _is_news(rough: Refit, tried: Sequence[Refit]) -> bool:
+    """Whether an optimum in wide valleys is none of those that were followed already, and not far behind them."""
+    least = min((other.objective for other in tried), default=np.inf) + FAR_BEHIND
+    return rough.objective < least and all(np.linalg.norm(rough.z - o.z) > APART for o in tried)
 
 
 def _on_other_sides(best: Refit) -> Refit:

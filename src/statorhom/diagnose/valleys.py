@@ -19,7 +19,9 @@ _H = TypeVar("_H", bound=AnyHypothesis)
 # points that are tried, refitted in wide valleys, and sharpened
 TRIALS, STARTS, SHARPENED = 200, 16, 3
 APART = 1.0  # prior standard deviations between starts
-BEHIND = 20.0  # of the objective in wide valleys: what stays so far behind is no other optimum worth keeping
+FAR_BEHIND = (
+    20.0  # of the objective in wide valleys: what stays so far behind is no other optimum worth keeping
+)
 NO_START = "no start of the declared model could be fitted; check masses and tables"
 SPREAD = 1.1  # of the prior: how far materials to try lie apart
 
@@ -80,7 +82,7 @@ def wide_optima(blank: _H, trials: Sequence[np.ndarray], starts: int = STARTS) -
     found: list[Refit[_H]] = []
     for z in _apart([z for _, z in scored], starts):
         # what promises nothing beside the best so far is not followed
-        worth = min((r.objective for r in found), default=np.inf) + BEHIND
+        worth = min((r.objective for r in found), default=np.inf) + FAR_BEHIND
         found += [r] if (r := refitted(coarse, z, worth)) is not None else []
     if not found:
         raise IdentificationError(NO_START)
