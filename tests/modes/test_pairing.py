@@ -1,29 +1,10 @@
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from plain_modes import Measured, Simulated
 from statorhom.modes.pairing import pair
-
-
-@dataclass(frozen=True)
-class Measured:
-    frequency_hz: float
-    order: int | None = None
-    axial: int | None = None
-
-
-@dataclass(frozen=True)
-class Simulated:
-    frequency_hz: float
-    order: int | None
-    axial: int | None
-    kind: str = "radial"
-    visibility: float = 1.0
-    multiplicity: int = 2
-
 
 STACK = (
     Simulated(1360.0, 2, 0),

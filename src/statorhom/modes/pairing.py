@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import heapq
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -12,6 +13,8 @@ from scipy.optimize import linear_sum_assignment
 
 from statorhom.modes.mode_protocols import LabelledMode, SimulatedMode
 from statorhom.modes.pairing_cost import UNPAIRED, FloatArray, PairingCost, pairing_cost
+
+MOST = 500  # assignments that are compared before the cheaper of two ways is followed alone
 
 
 class Pair(NamedTuple):
@@ -90,18 +93,40 @@ def pair(
     )
 
 
+class _Node(NamedTuple):
+    """An assignment with some pairs forbidden; the number decides between equals."""
+
+    total: float
+    number: int
+    best: npt.NDArray[np.int64]
+    cost: PairingCost
+
+
 def _assign(cost: PairingCost) -> tuple[npt.NDArray[np.int64], float]:
-    """Simulated mode of every measured one (−1: none) and the total cost."""
-    best, total = _assign_freely(cost)
-    for conflict in _conflicts(best, cost.close):
-        # the assignment cannot say "both or neither"; let the cheaper of the two modes keep the doublet
-        return min((_assign(cost.without(i, int(best[i]))) for i in conflict), key=lambda found: found[1])
-    return best, total
+    """Simulated mode of every measured one (−1: none) and the total cost.
+
+    An assignment cannot say "both or neither": of two modes that are no doublet either the first keeps it, and what is
+    far from it does not, or it gives it up. Branch and bound, the cheapest node first, for what is forbidden makes
+    nothing cheaper.
+    """
+    waiting, made = [_node(cost, 0)], 1
+    while True:
+        node = heapq.heappop(waiting)
+        conflict = next(_conflicts(node.best, node.cost.close), None)
+        if conflict is None:
+            return node.best, node.total
+        i, j = conflict[0], int(node.best[conflict[0]])
+        children = [_node(node.cost.keeping(i, j), made), _node(node.cost.without(i, j), made + 1)]
+        made += len(children)
+        if made > MOST:
+            waiting, children = [], [min(children)]
+        for child in children:
+            heapq.heappush(waiting, child)
 
 
-def _assign_freely(cost: PairingCost) -> tuple[npt.NDArray[np.int64], float]:
+def _node(cost: PairingCost, number: int) -> _Node:
     rows, columns = linear_sum_assignment(cost.table)
-    return cost.owner[columns], float(cost.table[rows, columns].sum())
+    return _Node(float(cost.table[rows, columns].sum()), number, cost.owner[columns], cost)
 
 
 def _conflicts(best: npt.NDArray[np.int64], close: npt.NDArray[np.bool_]) -> Iterator[tuple[int, int]]:

@@ -46,6 +46,15 @@ class PairingCost:
         table[measured, self.owner == simulated] = np.inf
         return PairingCost(table, self.owner, self.close)
 
+    def keeping(self, measured: int, simulated: int) -> PairingCost:
+        """The same table with one pair made certain: what is no doublet with the measured mode has another partner."""
+        table, its = self.table.copy(), self.owner == simulated
+        table[measured, ~its] = np.inf
+        others = ~self.close[measured]
+        others[measured] = False
+        table[np.ix_(others, its)] = np.inf
+        return PairingCost(table, self.owner, self.close)
+
 
 def pairing_cost(
     measured: Sequence[LabelledMode],
