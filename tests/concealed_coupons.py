@@ -12,6 +12,7 @@ import scipy.sparse as sp
 
 from roving_sensor import loaded_accelerance
 from statorhom.geometry.block import BlockGeometry
+from statorhom.materials.hooke import Hooke
 from statorhom.materials.orthotropic import Orthotropic
 from statorhom.mesh.block import block_mesh
 from statorhom.model.affine import Material
@@ -39,6 +40,15 @@ class Hidden:
     stiffness: float = 0.0
 
 
+@dataclass(frozen=True)
+class Patch:
+    """A rectangle (m) in which all moduli are those of the plate times a ratio."""
+
+    x: tuple[float, float]
+    y: tuple[float, float]
+    ratio: float
+
+
 @lru_cache(maxsize=4)
 def whole_plate(size: Size, factor: float) -> GeneralModel:
     """The whole plate's mesh, no symmetry used."""
@@ -52,9 +62,17 @@ def plate_frequencies(
     material: Material = CLOTH,
     size: Size = SIZE,
     factor: float = 1.0,
+    patch: Patch | None = None,
 ) -> tuple[np.ndarray, list[tuple[float, float]]]:
     """Elastic frequencies (Hz) of a free plate, and the nodes (x, y) that took what is hidden."""
-    model = whole_plate(size, factor)
+    model, materials = whole_plate(size, factor), {"plate": material}
+    if patch is not None:
+        middles = model.mesh.nodes[model.mesh.elements].mean(axis=1)
+        inside = np.ones(len(middles), dtype=bool)
+        for at, (low, high) in zip(middles.T, (patch.x, patch.y), strict=False):
+            inside &= (low < at) & (at < high)
+        model = model.with_region("patch", inside)
+        materials["patch"] = Material(Hooke(patch.ratio * material.hooke.matrix), material.density)
     mass, stiffness = np.zeros(model.size), np.zeros(model.size)
     nodes = []
     for one in hidden:
@@ -64,7 +82,7 @@ def plate_frequencies(
         stiffness[3 * node + 2] += one.stiffness
         nodes.append((float(model.mesh.nodes[node, 0]), float(model.mesh.nodes[node, 1])))
     changed = model.with_added(sp.diags_array(stiffness), sp.diags_array(mass))
-    found = changed.solve(highest_hz, {"plate": material}).frequencies_hz
+    found = changed.solve(highest_hz, materials).frequencies_hz
     return found[found > RIGID_HZ], nodes
 
 

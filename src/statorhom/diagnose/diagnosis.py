@@ -14,6 +14,7 @@ from statorhom.diagnose.approach import RING, Approach
 from statorhom.diagnose.baseline import Baseline
 from statorhom.diagnose.coupons.body_approach import BODY
 from statorhom.diagnose.decision import (
+    FAR_OVER_OTHERS,
     Evidence,
     Verdict,
     decide,
@@ -127,8 +128,7 @@ def _find(
     leading = leading_effects(approach, base, candidates, counts, settings.seed)
     found = list(leading.found)
     if leading.misfit_is_real:
-        # a misfit that is hardly one of noise may be a side valley, and rivals are compared in the deepest
-        if found and found[0].adequacy_but_one < WELL:
+        if found and _is_open(found):
             found = approach.refined(found, leading.base.valleys, counts)
         # one gross error asks for no second effect
         if found and found[0].adequacy_but_one < ADEQUATE:
@@ -142,6 +142,17 @@ def _find(
         best = replace(approach.final(best), log_evidence=best.log_evidence, compared=best.compared)
     evidence = _evidence(leading, best, none, found, settings.seed)
     return Found(decide(evidence), best, tuple(found), leading.scan, evidence, leading.base)
+
+
+def _is_open(found: Sequence[Explanation]) -> bool:
+    """Whether models of their own may change what leads.
+
+    A misfit that is hardly one of noise may be a side valley; near rivals are compared where each is at its best.
+    """
+    first, rest = found[0], others(found[0], found)
+    return first.adequacy_but_one < WELL or (
+        bool(rest) and rest[0].log_evidence > first.log_evidence - FAR_OVER_OTHERS
+    )
 
 
 def _pairs(leading: Leading, found: Sequence[Explanation], counts: dict[str, int]) -> list[Explanation]:

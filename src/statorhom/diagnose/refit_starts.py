@@ -19,6 +19,7 @@ from statorhom.errors import IdentificationError
 from statorhom.physics.candidate import Candidate
 
 STARTS, TRIED = 2, 4  # of one candidate that are followed, and that wide valleys choose them from
+PLACES = 6  # that are followed where an evaluation is cheap: a plate has more of them than a circle
 WORTH = 2.0  # gain of the scan below which an effect is not refitted
 POOR = 3.0  # squared residual per feature above which another valley is looked for
 CHEAP, MIDDLING, DEAR = range(3)  # prices
@@ -127,7 +128,10 @@ def _starts_of(base: Refit, found: Scan, signature: Signature) -> list[Start]:
     for one in own:
         if all(abs(float(one.change @ other.change)) < 0.9 for other in chosen):
             chosen.append(one)
-    begun = [start_of(base, s.candidate, _as_large(s)) for s in chosen[:STARTS]]
+    begun = [start_of(base, s.candidate, _as_large(s)) for s in chosen[:PLACES]]
+    somewhere = any(p.located for p in signature.candidate.parameters)
+    if not somewhere or price((signature.gain, begun)) != CHEAP:
+        begun = begun[:STARTS]
     if not is_poor(base):
         return begun
     every = [np.r_[base.z, start] for start in scan_starts(base.hypothesis.study, signature.candidate)]

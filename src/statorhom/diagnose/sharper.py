@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from statorhom.diagnose.decision import FAR_OVER_OTHERS
 from statorhom.diagnose.explanations import (
     ADEQUATE,
     WELL,
@@ -34,7 +35,6 @@ SETTLED = 2.0  # of the objective, that another one must have gained
 WORSE = 10.0  # of the objective, by which a model of its own is worse than the common one
 VAGUE = 1.0  # prior standard deviation of a logarithm from which on a constant may be far on either side
 ASIDE = 1.5  # prior standard deviations to either side where such a constant is tried
-RIVAL = 10.0  # log evidence behind a first one that is adequate already, up to which the others get models of their own
 BEHIND = 150.0  # log evidence by which others are too far behind for that
 
 
@@ -101,7 +101,7 @@ def refined(
     if not explanations:
         return []
     adequate = explanations[0].adequacy_but_one > ADEQUATE
-    least = explanations[0].log_evidence - (RIVAL if adequate else BEHIND)
+    least = explanations[0].log_evidence - (FAR_OVER_OTHERS if adequate else BEHIND)
 
     def better(e: Explanation) -> Explanation:
         leads = e is explanations[0]

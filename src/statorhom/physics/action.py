@@ -39,12 +39,12 @@ class Patch:
     Parameters
     ----------
     centre : x, y (m).
-    radii : r = 1 along x and along y (m).
+    radius : r = 1 (m).
     ratio : of the stiffness at the centre over the declared one; the mass is unchanged.
     """
 
     centre: tuple[float, float]
-    radii: tuple[float, float]
+    radius: float
     ratio: float
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from body_studies import MASS_KG, holds, write_plate
 
-from concealed_coupons import CLOTH, SIZE, Hidden, plate_frequencies, plate_recording
+from concealed_coupons import CLOTH, SIZE, Hidden, Patch, plate_frequencies, plate_recording
 from statorhom import Study
 from statorhom.model.affine import Material
 from statorhom.results.diagnosis import Diagnosis, PlanLocation
@@ -83,6 +83,21 @@ def test_a_stiff_suspension_is_named_with_its_stiffness(tmp_path: Path) -> None:
     [effect] = found.effects
     assert effect.effect == "suspension_stiffness"
     assert holds(effect.parameters["stiffness_n_per_m"], 2e4)
+
+
+def test_a_flaw_that_makes_a_plate_unsymmetric_is_named_with_its_places(tmp_path: Path) -> None:
+    flaw = Patch((0.185, 0.255), (0.105, 0.155), 0.75)
+    frequencies, _ = plate_frequencies(TOP, factor=1.3, patch=flaw)
+    found = Study.load(write_plate(tmp_path, frequencies[:MODES])).diagnose(tmp_path / "out")
+    assert found.verdict == "named"
+    [effect] = found.effects
+    assert effect.effect == "local_stiffness"
+    assert effect.parameters["stiffness_ratio"].value < 0.8  # type: ignore[union-attr]
+    place = effect.location
+    assert isinstance(place, PlanLocation)
+    nearest = min(np.hypot(x - 220.0, y - 130.0) for x, y in place.place_ambiguity_mm)
+    assert nearest < 15.0
+    assert found.fit.after.rms_percent < 0.5 * found.fit.before.rms_percent
 
 
 def test_a_wrong_thickness_of_a_plate_of_known_material_is_a_wrong_input(tmp_path: Path) -> None:

@@ -36,7 +36,7 @@ class Softened(Protocol):
     @property
     def centre(self) -> tuple[float, float]: ...
     @property
-    def radii(self) -> tuple[float, float]: ...
+    def radius(self) -> float: ...
     @property
     def ratio(self) -> float: ...
 
@@ -117,7 +117,7 @@ class ActedBody:
 
     def _faded(self, patch: Softened) -> FloatArray:
         def weight(centres: FloatArray) -> FloatArray:
-            away = (centres[:, :2] - patch.centre) / patch.radii
+            away = (centres[:, :2] - patch.centre) / patch.radius
             return np.asarray(np.exp(-0.5 * np.sum(away**2, axis=1)))
 
         return self.energy.weighted(weight)

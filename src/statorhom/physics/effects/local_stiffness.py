@@ -15,7 +15,7 @@ from statorhom.physics.candidate import Candidate
 from statorhom.physics.effect import Confusion, Effect, Words
 from statorhom.physics.parameter import EffectParameter, angle
 from statorhom.physics.pieces import yoke_layers
-from statorhom.physics.plan import plan_of
+from statorhom.physics.plan import Plan, plan_of
 from statorhom.physics.ring import ring_of
 from statorhom.study.regions import core_region
 from statorhom.study.study import StudyFiles
@@ -23,7 +23,8 @@ from statorhom.study.study import StudyFiles
 WIDTH_RAD = 0.1745  # 10°
 USUAL_DEPTH = 0.5  # of the yoke
 TRAINED = 0.6  # strength of the examples: their fields are those of other strengths too
-SPREAD = 0.12  # of a coupon's sides: radius of a patch
+# radius of a coupon's patch over the mean of its sides: 5 % and 95 % quantile of the prior, limits, and what is usual
+RADII, USUAL_RADIUS = (0.05, 0.25, 0.025, 0.5), 0.12
 DEPTHS = (0.25, 0.9, 0.1, 1.0)  # of the yoke: 5 % and 95 % quantile of the prior, and limits
 RATIO = EffectParameter("stiffness_ratio", 0.3, 2.5, 0.02, 12.0, "log", (0.6, 1.6), 1.0)
 
@@ -45,7 +46,7 @@ class LocalStiffness(Effect):
 
     coupon_words = Words(
         "a part of the body is stiffer or softer: a flaw, a repair, an uneven thickness",
-        f"stiffness at the middle of a patch that fades over {SPREAD:.0%} of the body's sides, over the declared one",
+        "stiffness at the middle of a round patch over the declared one; it fades as exp(-r²/2) over its radius",
         (Confusion("attached_mass", "shapes at more points near the place"),),
     )
 
@@ -64,10 +65,14 @@ class LocalStiffness(Effect):
     def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         plan = plan_of(files)
         stages = [] if plan is None else [stage.name for stage in files.study.stages if stage.tests]
-        return tuple(Candidate(self.name, name, (RATIO, *plan.places())) for name in stages if plan)
+        return tuple(
+            Candidate(self.name, name, (RATIO, *plan.places(), _radius(plan))) for name in stages if plan
+        )
 
     def reported(self, candidate: Candidate, values: Mapping[str, float]) -> dict[str, float | str]:
         found = super().reported(candidate, values)
+        if "radius_mm" in values:
+            found["radius_mm"] = values["radius_mm"]
         if "depth_mm" in values:
             found |= {"width_deg": round(float(np.degrees(WIDTH_RAD)), 1), "depth_mm": values["depth_mm"]}
         return found
@@ -76,8 +81,7 @@ class LocalStiffness(Effect):
         plan = plan_of(files)
         if plan is not None:
             x, y, _ = plan.on_top(values)
-            radii = (SPREAD * plan.radii[0], SPREAD * plan.radii[1])
-            patch = Patch((x, y), radii, values["stiffness_ratio"])
+            patch = Patch((x, y), 1e-3 * values["radius_mm"], values["stiffness_ratio"])
             return Action(patches=(patch,), stages=frozenset({candidate.stage}))
         yoke = ring_of(files).yoke
 
@@ -96,9 +100,19 @@ class LocalStiffness(Effect):
 
 def _depth(yoke_mm: float) -> EffectParameter:
     """How deep the strip reaches, of a yoke."""
-    low90, high90, lower, upper = (share * yoke_mm for share in DEPTHS)
-    usual = USUAL_DEPTH * yoke_mm
-    return EffectParameter("depth_mm", low90, high90, lower, upper, "log", (usual,), None, usual=usual)
+    return _detail("depth_mm", DEPTHS, USUAL_DEPTH, yoke_mm)
+
+
+def _radius(plan: Plan) -> EffectParameter:
+    """How wide the patch is, of a body's sides."""
+    return _detail("radius_mm", RADII, USUAL_RADIUS, 1e3 * float(np.sqrt(plan.radii[0] * plan.radii[1])))
+
+
+def _detail(name: str, shares: tuple[float, ...], usual: float, size: float) -> EffectParameter:
+    low90, high90, lower, upper = (share * size for share in shares)
+    return EffectParameter(
+        name, low90, high90, lower, upper, "log", (usual * size,), None, usual=usual * size
+    )
 
 
 EFFECT = LocalStiffness()
