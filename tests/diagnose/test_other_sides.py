@@ -61,11 +61,18 @@ def test_what_breaks_the_symmetry_is_solved_on_the_other_side(monkeypatch: pytes
         refit.hypothesis = replace(refit.hypothesis, changes=lambda *_: ())
         return refit
 
-    def sharpened(explanation: Any) -> Any:
-        references.append(explanation.refit.z[1])
-        return replace(explanation, refit=broken(explanation.refit.z, 20.0 if references[-1] > 0 else 90.0))
+    def own_model(there: Any, *, mesh_known: bool) -> Any:
+        # where the mesh is wrong by about as much, a look at the other side does not solve finer meshes
+        assert mesh_known
+        references.append(there.z[1])
+        return there.hypothesis
+
+    def refitted(_hypothesis: Any, z: np.ndarray, worth: float) -> Any:
+        assert worth in (100.0, 20.0)
+        return broken(z, 20.0 if z[1] > 0 else 90.0 + worth)
 
     monkeypatch.setattr(sharper, "evaluated", lambda _, z: broken(z, 300.0))
-    monkeypatch.setattr(sharper, "_sharpened", sharpened)
+    monkeypatch.setattr(sharper, "_own_model", own_model)
+    monkeypatch.setattr(sharper, "refitted", refitted)
     assert sharper._on_other_sides(broken(np.array([0.2, -0.7, 0.1]), 100.0)).objective == 20.0
     assert references == [-sharper.ASIDE, sharper.ASIDE]
