@@ -78,3 +78,15 @@ def test_a_place_on_a_wing_lies_on_it(tmp_path: Path) -> None:
     right, left = plan.both_sides({"chord_share": 0.5, "y_m": 0.2})
     assert left[:2] == (right[0], -right[1])
     assert max(x for x, _ in plan.outline) == pytest.approx(max(tip[0], 0.3))
+
+
+def test_a_patch_is_as_wide_as_it_says_and_usual_where_it_does_not(tmp_path: Path) -> None:
+    files = coupon(tmp_path, "plate", PLATE)
+    [patch] = [c for c in all_candidates(files) if c.effect == "local_stiffness"]
+    radius = patch.parameters[-1]
+    mean = 1e3 * np.sqrt(0.3 * 0.2)
+    assert (radius.name, radius.usual) == ("radius_mm", pytest.approx(0.12 * mean))
+    values = {"stiffness_ratio": 0.5, "x_m": 0.1, "y_m": 0.05, "radius_mm": 15.0}
+    [softer] = library()["local_stiffness"].action(patch, values, files).patches
+    assert (softer.centre, softer.radius, softer.ratio) == ((0.1, 0.05), pytest.approx(0.015), 0.5)
+    assert library()["local_stiffness"].reported(patch, values) == {"stiffness_ratio": 0.5, "radius_mm": 15.0}
