@@ -113,3 +113,16 @@ def test_an_explanation_that_is_beyond_doubt_asks_for_no_other_valley(
 ) -> None:
     assert sought_again(monkeypatch, 500.0, 0.5) is None
     assert sought_again(monkeypatch, 100.0, 0.5) is not None
+
+
+@pytest.mark.parametrize(
+    ("p_value", "unpaired", "by_chance"), [(0.5, False, True), (1e-4, False, False), (0.5, True, False)]
+)
+def test_where_the_misfit_is_chance_nothing_is_sharpened(
+    p_value: float, unpaired: bool, by_chance: bool
+) -> None:
+    lump = explanation("lump", -50.0)
+    lump.effects = ("attached_mass",)
+    lump.candidates[0].parameters = (1,)
+    now: Any = leading.Leading(base(-700.0), SimpleNamespace(p_value=p_value), unpaired, (lump,))  # type: ignore[arg-type]
+    assert now.by_chance(lump) is by_chance

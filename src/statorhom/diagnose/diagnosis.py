@@ -137,7 +137,7 @@ def _find(
     progress(1)
     none = nothing(leading.base.refit)
     best = found[0] if found else none
-    if found:
+    if found and not leading.by_chance(best):
         # reported numbers come from the explanation's own model, comparisons from the common one
         best = replace(approach.final(best), log_evidence=best.log_evidence, compared=best.compared)
     evidence = _evidence(leading, best, none, found, settings.seed)

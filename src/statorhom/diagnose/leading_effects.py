@@ -50,6 +50,10 @@ class Leading:
             return float(np.exp(-max(0.0, over)))
         return self.scan.p_value
 
+    def by_chance(self, best: Explanation) -> bool:
+        """Whether nothing is missing whatever the best explanation says."""
+        return self.chance(best) >= MAX_T_P and not self.unpaired
+
     @property
     def misfit_is_real(self) -> bool:
         """Whether anything is left for an effect to explain."""
