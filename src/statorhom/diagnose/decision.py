@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from statorhom.diagnose.explanations import Explanation
+from statorhom.diagnose.explanations import ADEQUATE, Explanation
 from statorhom.diagnose.held_out import HeldOut
 
 Verdict = Literal["none", "named", "ambiguous", "unknown"]
@@ -17,7 +17,6 @@ OVER_NOTHING, OVER_OTHERS = 5.0, 3.0  # of log evidence
 # The same where something else speaks against it: the declared model misses nothing by more than chance, or too few
 # modes show the effect for held-out ones to confirm it.
 FAR_OVER_NOTHING, FAR_OVER_OTHERS = 20.0, 10.0
-ADEQUATE = 0.01
 AS_IT_SHOULD = 0.1  # chance of the declared model's misfit from which on there is nothing to explain
 STABLE = 0.8
 FEW = 4  # modes that show an effect, below which held-out modes cannot decide
@@ -54,7 +53,7 @@ class Evidence:
     @property
     def by_chance(self) -> bool:
         """Rule 1: what the declared model misses may be chance."""
-        return self.p_value >= MAX_T_P and not self.unpaired
+        return is_chance(self.p_value, self.unpaired)
 
     @property
     def detected(self) -> bool:
@@ -83,6 +82,11 @@ class Evidence:
         """Whether rule 3 has too few modes that show anything: they cannot contradict, nor can they confirm."""
         few = self.held_out is None or (self.held_out.informative < FEW and not self.held_out.worsens)
         return few and bool(np.isfinite(self.over_others))
+
+
+def is_chance(p_value: float, unpaired: bool) -> bool:
+    """Whether a misfit may be chance; many modes without a partner are none."""
+    return p_value >= MAX_T_P and not unpaired
 
 
 def decide(evidence: Evidence) -> Verdict:

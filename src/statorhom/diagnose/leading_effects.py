@@ -9,7 +9,7 @@ import numpy as np
 
 from statorhom.diagnose.approach import Approach
 from statorhom.diagnose.baseline import Baseline
-from statorhom.diagnose.decision import MAX_T_P, OVER_NOTHING
+from statorhom.diagnose.decision import OVER_NOTHING, is_chance
 from statorhom.diagnose.explanations import ADEQUATE, Explanation, nothing
 from statorhom.diagnose.held_out_name import renames_alone
 from statorhom.diagnose.lacking_modes import lacks_modes
@@ -52,12 +52,12 @@ class Leading:
 
     def by_chance(self, best: Explanation) -> bool:
         """Whether nothing is missing whatever the best explanation says."""
-        return self.chance(best) >= MAX_T_P and not self.unpaired
+        return is_chance(self.chance(best), self.unpaired)
 
     @property
     def misfit_is_real(self) -> bool:
         """Whether anything is left for an effect to explain."""
-        return self.scan.p_value < MAX_T_P or self.unpaired or bool(self.elsewhere)
+        return not is_chance(self.scan.p_value, self.unpaired) or bool(self.elsewhere)
 
 
 def leading_effects(

@@ -17,7 +17,7 @@ def located(explanation: Explanation, number: int) -> Location | None:
     """Location of one of the explanation's effects; None where it has none."""
     candidate = explanation.candidates[number]
     r = explanation.refit
-    if not any(p.located for p in candidate.parameters) or not _tells_places(explanation, number):
+    if not candidate.located or not _tells_places(explanation, number):
         return None
     values = r.hypothesis.effect_values(r.z)[number]
     sd = _deviations(explanation, number)

@@ -129,8 +129,7 @@ def _starts_of(base: Refit, found: Scan, signature: Signature) -> list[Start]:
         if all(abs(float(one.change @ other.change)) < 0.9 for other in chosen):
             chosen.append(one)
     begun = [start_of(base, s.candidate, _as_large(s)) for s in chosen[:PLACES]]
-    somewhere = any(p.located for p in signature.candidate.parameters)
-    if not somewhere or price((signature.gain, begun)) != CHEAP:
+    if not signature.candidate.located or price((signature.gain, begun)) != CHEAP:
         begun = begun[:STARTS]
     if not is_poor(base):
         return begun

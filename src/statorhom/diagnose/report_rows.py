@@ -105,7 +105,7 @@ def _shape_spread(candidate: Candidate, parameter: EffectParameter, z: float) ->
 
     All splits share it, so that more of them do not average it out as they do what each has by itself.
     """
-    if not any(p.located for p in candidate.parameters):
+    if not candidate.located:
         return 0.0
     slope = (parameter.value(z + STEP) - parameter.value(z - STEP)) / (2 * STEP)
     size = abs(parameter.value(z) - (parameter.absent or 0.0))

@@ -55,7 +55,7 @@ def sharpened(explanation: Explanation, *, leads: bool = True) -> Explanation:
             break
         explanation, found = found, _sharpened(found)
     found = replace(found, settled=True)
-    if found.adequacy > WELL or not (leads or _is_cheap(found.refit)):
+    if found.adequacy > WELL or not (leads or _keeps_symmetry(found.refit)):
         return found
     deeper = _on_other_sides(found.refit)
     return found if deeper is found.refit else _sharpened(replace(found, refit=deeper))
@@ -74,7 +74,7 @@ def _sharpened(explanation: Explanation) -> Explanation:
 
 
 def _own_model(r: Refit, *, mesh_known: bool = False) -> Hypothesis:
-    """With basis and, unless they hardly differ, mesh factors of its own materials; to be paired anew."""
+    """With basis and, unless the old ones do, mesh factors of its own materials; to be paired anew."""
     hypothesis = r.hypothesis
     values, actions = hypothesis.study.constants.values(r.z[: hypothesis.constants]), hypothesis.actions(r.z)
     stages = []
@@ -158,7 +158,7 @@ def _on_other_sides(best: Refit) -> Refit:
 def _from_there(best: Refit, start: np.ndarray) -> Refit | None:
     """The refit from other constants; what breaks the symmetry is solved there, for it does not move with them."""
     blank = replace(best.hypothesis, held=None)
-    if _is_cheap(best):
+    if _keeps_symmetry(best):
         return refitted(blank, start, worth=best.objective)
     try:
         there = evaluated(blank, start)
@@ -167,6 +167,6 @@ def _from_there(best: Refit, start: np.ndarray) -> Refit | None:
     return refitted(_own_model(there, mesh_known=True), start, worth=best.objective)
 
 
-def _is_cheap(found: Refit) -> bool:
+def _keeps_symmetry(found: Refit) -> bool:
     """Whether nothing breaks the symmetry."""
     return not any(action.changes for action in found.hypothesis.actions(found.z))

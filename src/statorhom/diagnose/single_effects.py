@@ -93,7 +93,7 @@ def refits(
 
 def _has_place(start: Start) -> bool:
     """Whether the last effect is somewhere, or loses contact somewhere: its refits take many solutions."""
-    return price((0.0, [start])) == DEAR or any(p.located for p in start.hypothesis.candidates[-1].parameters)
+    return price((0.0, [start])) == DEAR or start.hypothesis.candidates[-1].located
 
 
 def new_names(

@@ -19,9 +19,7 @@ _H = TypeVar("_H", bound=AnyHypothesis)
 # points that are tried, refitted in wide valleys, and sharpened
 TRIALS, STARTS, SHARPENED = 200, 16, 3
 APART = 1.0  # prior standard deviations between starts
-FAR_BEHIND = (
-    20.0  # of the objective in wide valleys: what stays so far behind is no other optimum worth keeping
-)
+FAR_BEHIND = 20.0  # of the objective in wide valleys: what stays so far behind is no other optimum
 NO_START = "no start of the declared model could be fitted; check masses and tables"
 SPREAD = 1.1  # of the prior: how far materials to try lie apart
 

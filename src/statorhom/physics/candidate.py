@@ -44,6 +44,11 @@ class Candidate:
         return dict(self.choice)
 
     @property
+    def located(self) -> bool:
+        """Whether it is somewhere."""
+        return any(p.located for p in self.parameters)
+
+    @property
     def magnitudes(self) -> tuple[EffectParameter, ...]:
         """Constants that are no places, and no details that only widen what is known of the others."""
         return tuple(p for p in self.parameters if not p.located and p.usual is None)

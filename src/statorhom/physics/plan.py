@@ -44,7 +44,7 @@ class Plan(Protocol):
         """Parameters whose mirror image about the middle of their range is one of the body too."""
 
     @property
-    def radii(self) -> tuple[float, float]:
+    def lengths(self) -> tuple[float, float]:
         """Lengths of the body along x and y (m)."""
 
     @property
@@ -96,7 +96,7 @@ class BlockPlan:
         return self.length - x, y
 
     @property
-    def radii(self) -> tuple[float, float]:
+    def lengths(self) -> tuple[float, float]:
         """Length and width."""
         return self.length, self.width
 
@@ -144,7 +144,7 @@ class WingPlan:
         return x, -y
 
     @property
-    def radii(self) -> tuple[float, float]:
+    def lengths(self) -> tuple[float, float]:
         """Chord at the middle, and span."""
         return self.form.root_chord, 2 * self.form.half_span
 

@@ -105,7 +105,7 @@ def _depth(yoke_mm: float) -> EffectParameter:
 
 def _radius(plan: Plan) -> EffectParameter:
     """How wide the patch is, of a body's sides."""
-    return _detail("radius_mm", RADII, USUAL_RADIUS, 1e3 * float(np.sqrt(plan.radii[0] * plan.radii[1])))
+    return _detail("radius_mm", RADII, USUAL_RADIUS, 1e3 * float(np.sqrt(np.prod(plan.lengths))))
 
 
 def _detail(name: str, shares: tuple[float, ...], usual: float, size: float) -> EffectParameter:
