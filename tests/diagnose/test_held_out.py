@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from statorhom.diagnose.features import Feature
-from statorhom.diagnose.held_out import HeldOut, left_out_errors
+from statorhom.diagnose.features import LOST, LOST_UNNAMED, Feature
+from statorhom.diagnose.held_out import HeldOut, lacked, left_out_errors
 
 TOLD = (
     ("stack-free", (2, 0, 0)),
@@ -62,3 +62,21 @@ def test_pole_shifts_are_no_part_of_a_frequency_s_noise() -> None:
     group = ("stack-free", key)
     assert found[group, False] == pytest.approx((0.1, 0.2))
     assert found[group, True] == pytest.approx((0.05 * np.sqrt(2), 0.002 * np.sqrt(2)))
+
+
+def fit_of(*features: Feature) -> Any:
+    return SimpleNamespace(hypothesis=SimpleNamespace(features=lambda _: list(features)), z=None)
+
+
+def test_a_named_mode_that_only_one_model_has_is_lacked_by_the_other() -> None:
+    key = (2, 1, 0)
+    found = Feature("frequency", "free", key, 7.0, 7.0, 1e-3, rows=("3", "4"))
+    lost = [Feature("frequency", "free", None, LOST, 0.0, 1.0, lost=True, rows=(row,)) for row in ("3", "4")]
+    assert lacked(fit_of(*lost), fit_of(found)) == {("free", key)}
+    assert not lacked(fit_of(found), fit_of(*lost))
+    # one of its lines alone, or a row without a name, may be any other mode's
+    assert not lacked(fit_of(lost[0]), fit_of(found))
+    unnamed = [
+        Feature("frequency", "free", None, LOST_UNNAMED, 0.0, 1.0, lost=True, rows=f.rows) for f in lost
+    ]
+    assert not lacked(fit_of(*unnamed), fit_of(found))

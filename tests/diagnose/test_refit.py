@@ -85,3 +85,34 @@ class Walled(Valley):
 def test_limits_hold_one_coordinate_and_not_the_others(wish: float, there: float, start: float) -> None:
     best = refit(Walled(wish=wish), np.array([0.0, start]))  # type: ignore[type-var]
     np.testing.assert_allclose(best.z, there, atol=1e-3)
+
+
+@dataclass
+class Turning(Valley):
+    """A magnitude with a prior and an angle without one that hardly matters: the magnitude has to explain the data."""
+
+    @property
+    def prior_weights(self) -> np.ndarray:
+        return np.array([1.0, 0.0])
+
+    def limits(self) -> tuple[np.ndarray, np.ndarray]:
+        return np.array([-10.0, -np.inf]), np.array([10.0, np.inf])
+
+    def paired(self, _: np.ndarray) -> Turning:
+        return self
+
+    def residuals(self, z: np.ndarray) -> np.ndarray:
+        # what the angle adds to has a phase of its own, which no frequency tells
+        return np.array([10 * (np.exp(z[0]) - 4 + 0.01 * np.sin(z[1])), 0.5 * (z[0] - 1)])
+
+
+def test_an_angle_that_tells_nothing_keeps_no_magnitude_from_its_optimum() -> None:
+    best = refit(Turning(), np.array([0.5, 0.3]))  # type: ignore[type-var]
+    assert best.z[0] == pytest.approx(np.log(4), abs=0.02)
+
+
+def test_an_angle_that_tells_nothing_widens_no_interval_beyond_its_own_range() -> None:
+    best = refit(Turning(), np.array([0.5, 0.3]))  # type: ignore[type-var]
+    magnitude, angle = np.sqrt(np.diag(best.covariance))
+    assert magnitude < 0.03  # 10 e^z per unit
+    assert angle < 1.5  # of a uniform coordinate: one

@@ -91,7 +91,8 @@ def test_an_effect_that_leaves_more_than_its_absence_is_sought_all_over_the_prio
 ) -> None:
     assert sought(monkeypatch, 450.0) == 20.0
     assert sought(monkeypatch, 150.0) == 150.0
-    # something explains the misfit already, a solution is dear, or the strongest are sought everywhere in any case
-    assert sought(monkeypatch, 450.0, worth=90.0) == 450.0
+    # what explains the misfit already may have a rival there
+    assert sought(monkeypatch, 450.0, worth=90.0) == 20.0
+    # a solution is dear, or the strongest are sought everywhere in any case
     assert sought(monkeypatch, 450.0, price=MIDDLING) == 450.0
     assert sought(monkeypatch, 450.0, far=True) == 450.0

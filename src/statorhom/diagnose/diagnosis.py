@@ -220,8 +220,8 @@ def _diagnosis(approach: Approach, files: StudyFiles, found: Found, choice: Choi
         alternatives=tuple(shown) if found.verdict != "none" else (),
         mismatch=mismatch(base) if found.verdict != "none" else None,
         fit=FitErrors(
-            before=frequency_errors(base),
-            after=frequency_errors(after),
+            before=frequency_errors(base, after),
+            after=frequency_errors(after, base),
             held_out=None
             if unseen is None or found.verdict == "none"
             else HeldOutErrors(

@@ -35,6 +35,8 @@ MOST_LOSS = (
 )
 NUMBERED = -1  # in the place of n: a mode without a name, told by its row in the table
 USUAL_ORDERS = 6
+# of the distance up to which modes are partners: that of partners where most modes agree already
+NEAR = 0.2
 LOST, LOST_UNNAMED = 10.0, 4.0  # residual of a mode of a table that has no partner
 
 Keys = tuple[ModeKey | None, ...]
@@ -100,15 +102,18 @@ def held_down(residual: float) -> float:
 
 
 def assigned(
-    test: MeasuredTest, modes: Sequence[MeasuredMode], predicted: Mapping[ModeKey, PredictedMode]
+    test: MeasuredTest,
+    modes: Sequence[MeasuredMode],
+    predicted: Mapping[ModeKey, PredictedMode],
+    reach: float = 1.0,
 ) -> Keys:
-    """Named partner of every measured mode."""
+    """Named partner of every measured mode; `reach`: as a part of how far partners may usually lie apart."""
     simulated = sorted((_as_seen(m, modes) for m in predicted.values()), key=lambda mode: mode.frequency_hz)
     used = [i for i, mode in enumerate(modes) if not (test.recorded and mode.order is None)]
     found = pair(
         [modes[i] for i in used],
         simulated,
-        PAIRING_SD,
+        reach * PAIRING_SD,
         gate=GATE,
         labelled_gate=LABELLED_GATE,
         with_doubt=False,

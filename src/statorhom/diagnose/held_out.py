@@ -11,9 +11,10 @@ from typing_extensions import TypeVar
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.derivatives import jacobian
 from statorhom.diagnose.explanations import Explanation
-from statorhom.diagnose.features import Feature
+from statorhom.diagnose.features import LOST, NEAR, Feature
 from statorhom.diagnose.refit import Refit, refit
 from statorhom.errors import StatorhomError
+from statorhom.identify.stage_problem import LABELLED_GATE, PAIRING_SD
 from statorhom.model.convergence import ModeKey
 
 _H = TypeVar("_H", bound=AnyHypothesis)
@@ -35,6 +36,7 @@ WEIGHT = {
 
 Group = tuple[str, ModeKey | None]
 Part = tuple[Group, bool]  # of a group: its pole shifts, or the rest, whose model is far less certain
+LACKING = 100 * NEAR * LABELLED_GATE * PAIRING_SD  # percent: no mode of that name is predicted any nearer
 WEIGHED: Group = ("", None)  # what is known of the densities
 MOVES = 0.5  # standard deviations by which an explanation moves a density of which it says something
 
@@ -131,12 +133,15 @@ def held_out(base: Refit, explanation: Explanation) -> HeldOut:
 
 def _predicted(base: Refit, explanation: Explanation, folds: Sequence[frozenset[Group]]) -> HeldOut:
     groups = {g for fold in folds for g in fold}
+    lacking = lacked(base, explanation.refit), lacked(explanation.refit, base)
     rows: dict[Part, tuple[_Error, _Error]] = {}
     for fold in folds:
         if not fold or (len(fold) == len(groups) and fold != {WEIGHED}):
             continue
         before, after = (_errors(r, fold) for r in (base, explanation.refit))
         rows |= {part: (before[part], after[part]) for part in before if part in after}
+        rows |= {part: (_lacking(e), e) for part, e in after.items() if part[0] in lacking[0]}
+        rows |= {part: (e, _lacking(e)) for part, e in before.items() if part[0] in lacking[1]}
     used = sorted(rows, key=str)
     return HeldOut(
         tuple(group for group, _ in used),
@@ -147,12 +152,26 @@ def _predicted(base: Refit, explanation: Explanation, folds: Sequence[frozenset[
 
 
 def _groups(base: Refit, explanation: Explanation) -> list[Group]:
-    """Modes that both have a partner for, tests mixed."""
-    both = [
-        {f.group for f in r.hypothesis.features(r.z) if f.kind in WEIGHT and not f.lost}
-        for r in (base, explanation.refit)
-    ]
-    return sorted(both[0] & both[1], key=str)
+    """Modes that both have a partner for, or one has and the other has none; tests mixed."""
+    refits = base, explanation.refit
+    both = set(_paired_rows(refits[0])) & set(_paired_rows(refits[1]))
+    return sorted(both | lacked(*refits) | lacked(*refits[::-1]), key=str)
+
+
+def _paired_rows(r: Refit) -> dict[Group, frozenset[str]]:
+    """Modes that have a partner, and the rows that were measured of them."""
+    return {f.group: frozenset(f.rows) for f in r.hypothesis.features(r.z) if f.kind in WEIGHT and not f.lost}
+
+
+def lacked(one: Refit, other: Refit) -> set[Group]:
+    """Named modes of another fit whose rows have no partner in the one: it says that nothing is near (`LACKING`)."""
+    features = one.hypothesis.features(one.z)
+    lost = {(f.test, row) for f in features if f.lost and f.measured == LOST for row in f.rows}
+    return {
+        group
+        for group, rows in _paired_rows(other).items()
+        if rows and all((group[0], row) in lost for row in rows)
+    }
 
 
 def _moves_densities(base: Refit, explanation: Explanation) -> bool:
@@ -176,6 +195,11 @@ class _Error:
     error: float
     noise: float
     spread: float
+
+
+def _lacking(known: _Error) -> _Error:
+    """Of a model that has no such mode, beside one that has."""
+    return replace(known, error=LACKING)
 
 
 def _errors(full: Refit, fold: frozenset[Group]) -> dict[Part, _Error]:

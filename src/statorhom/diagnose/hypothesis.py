@@ -21,6 +21,7 @@ from statorhom.diagnose.damping import (
 )
 from statorhom.diagnose.dimension_response import changed_geometry, step_of
 from statorhom.diagnose.features import (
+    NEAR,
     Feature,
     Keys,
     assigned,
@@ -84,13 +85,19 @@ class Hypothesis(AnyHypothesis):
         return (*own, *((f"declared {i}", ()) for i in range(len(self.study.effects))))
 
     def paired(self, z: FloatArray) -> Hypothesis:
-        """With the pairing held as it is at z.
+        """With the pairing held as it is at z: of near partners, or of far ones where these leave less.
 
         Raises
         ------
         StatorhomError
             If no stator has these constants.
         """
+        far, near = self._paired(z, 1.0), self._paired(z, NEAR)
+        if far.held == near.held:
+            return far
+        return min(far, near, key=lambda h: float(np.sum(h.residuals(z) ** 2)) + h.missed)
+
+    def _paired(self, z: FloatArray, reach: float) -> Hypothesis:
         values, actions = self.study.constants.values(z[: self.constants]), self.actions(z)
         held: dict[str, Keys | Partners] = {}
         names: dict[str, Names] = {}
@@ -107,7 +114,7 @@ class Hypothesis(AnyHypothesis):
                     held[test.name] = partners(stage, test, reference, found, there) if reference else ()
                 else:
                     seen = counted_at_planes(stage, test, found)
-                    keys = assigned(test, self.modes(test, actions), seen)
+                    keys = assigned(test, self.modes(test, actions), seen, reach)
                     held[test.name] = keys
                     missed += missed_cost(test, keys, found)
         return replace(self, held=held, names=names, missed=missed)

@@ -20,6 +20,7 @@ ITERATIONS = 12
 PATIENCE = 2  # steps in a row that promise too little
 SETTLED = 0.05  # decrease of the objective that no longer matters
 LARGEST_STEP = 2.0  # in prior standard deviations
+LEAST_CURVATURE = 1.0  # of a coordinate as the damping sees it; the prior's own, but of places
 UNIFORM = 2 * np.pi / 12  # precision of a normal density that is as high as the uniform one
 
 
@@ -48,15 +49,10 @@ class Refit(Generic[H]):
     objective: float
 
     @property
-    def precision(self) -> FloatArray:
-        """Hessian of half the objective."""
-        return self.jacobian.T @ self.jacobian + np.diag(self.hypothesis.prior_weights)
-
-    @property
     def covariance(self) -> FloatArray:
         """Of all coordinates."""
-        spread = self.precision + 1e-9 * np.eye(len(self.z))
-        return np.asarray(np.linalg.inv(spread))
+        information = self.jacobian.T @ self.jacobian
+        return np.asarray(np.linalg.inv(_precision(information, self.hypothesis.prior_weights)))
 
     @property
     def log_evidence(self) -> float:
@@ -76,10 +72,14 @@ def log_volume(information: FloatArray, weights: FloatArray) -> float:
     information : JᵀJ.
     weights : precision of the prior, 0 where it is uniform.
     """
-    uniform = weights == 0.0
-    precision = information + np.diag(np.where(uniform, UNIFORM, weights))
-    _, logdet = np.linalg.slogdet(precision)
-    return -0.5 * float(logdet) + 0.5 * float(uniform.sum()) * float(np.log(UNIFORM))
+    _, logdet = np.linalg.slogdet(_precision(information, weights))
+    uniform = np.count_nonzero(weights == 0.0)
+    return float(-0.5 * logdet + 0.5 * uniform * np.log(UNIFORM))
+
+
+def _precision(information: FloatArray, weights: FloatArray) -> FloatArray:
+    """Hessian of half the objective, and of a uniform coordinate no less than its prior's."""
+    return information + np.diag(np.where(weights == 0.0, UNIFORM, weights))
 
 
 def refit(hypothesis: _H, start: FloatArray, rounds: int = ROUNDS, worth: float = np.inf) -> Refit[_H]:
@@ -153,9 +153,11 @@ def _polished(hypothesis: _H, z: FloatArray, worth: float = np.inf) -> Refit[_H]
         vain = vain + 1 if promised > worth else 0
         if vain == PATIENCE:
             break
+        # a place of which the data hardly tell would take all of the step, whatever the damping
+        scale = np.maximum(np.diag(H), LEAST_CURVATURE)
         improved = False
         for _ in range(6):
-            step = _step(H + damping * np.diag(np.diag(H) + 1e-6), gradient, low - z, high - z)
+            step = _step(H + damping * np.diag(scale), gradient, low - z, high - z)
             step *= min(1.0, LARGEST_STEP / max(float(np.abs(step).max()), 1e-12))
             trial = np.clip(z + step, low, high)
             try:

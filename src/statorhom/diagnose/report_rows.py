@@ -8,6 +8,7 @@ import numpy as np
 
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.features import SPLIT_PART, Feature
+from statorhom.diagnose.held_out import LACKING, lacked
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.sides import one_by_one, opposite_location
 from statorhom.physics.candidate import Candidate
@@ -112,13 +113,14 @@ def _shape_spread(candidate: Candidate, parameter: EffectParameter, z: float) ->
     return SPLIT_PART * size / abs(slope) if slope else 0.0
 
 
-def frequency_errors(r: Refit) -> Errors:
-    """Of the modes that have a partner, in percent."""
+def frequency_errors(r: Refit, other: Refit) -> Errors:
+    """Of the modes that have a partner here or in another fit, in percent; what is lacking here is off by `LACKING`."""
     errors = [
         100 * abs(f.measured - f.predicted)
         for f in r.hypothesis.features(r.z)
         if f.kind == "frequency" and not f.lost
     ]
+    errors += [LACKING] * len(lacked(r, other))
     if not errors:
         return Errors(rms_percent=0.0, max_percent=0.0)
     return Errors(rms_percent=float(np.sqrt(np.mean(np.square(errors)))), max_percent=float(max(errors)))

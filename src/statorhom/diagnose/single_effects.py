@@ -137,8 +137,8 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: floa
     known : its objective: an effect that may be absent leaves no more, and what does is no optimum.
     """
     found: list[Refit] = []
-    leads = np.isinf(worth) and price((0.0, list(starts))) == CHEAP
-    cheap = far and leads
+    costs_little = price((0.0, list(starts))) == CHEAP
+    cheap = far and costs_little and np.isinf(worth)
     for start in starts:
         less = bool(found) and found[-1].objective <= known
         if less and not cheap and explained(found[-1], {}).adequacy_but_one > ADEQUATE:
@@ -155,7 +155,7 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: floa
     others: list[Refit] = []
     if best is not None and cheap:
         others = _beside_later_steps(best)
-    elif best is not None and leads and best.objective > known:
+    elif best is not None and costs_little and best.objective > known:
         # beside a poor model the strongest effects are sought all over the prior in any case
         others = _elsewhere(starts[0])
     return min([best, *others], key=_objective) if best is not None else None
