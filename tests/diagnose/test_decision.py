@@ -48,6 +48,7 @@ def test_all_rules_met_names() -> None:
         ({"adequacy": 1e-3}, "unknown"),
         ({"within": False}, "unknown"),
         ({"stability": 0.7}, "ambiguous"),
+        ({"confirmed": False}, "ambiguous"),
     ],
 )
 def test_each_rule_fails_alone(change: dict[str, object], verdict: str) -> None:

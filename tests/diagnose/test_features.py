@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -60,3 +62,32 @@ def test_a_coarse_mesh_leaves_more_of_a_frequency_open_than_its_correction_says(
     fine, coarse = (own_sd(ModelError(factors={key: 1 - part}), key) for part in (0.004, 0.04))
     assert fine == pytest.approx(5e-4, rel=0.2)
     assert coarse > 8 * fine
+
+
+@pytest.mark.parametrize("recorded", [False, True])
+def test_a_small_split_beside_large_ones_says_little_of_its_cause(recorded: bool) -> None:
+    """In one mode what a local cause bends and what of it shears may nearly cancel: that is its shape, not its size."""
+    keys = ((2, 0, 0), (3, 0, 0))
+
+    def residual_of_the_second(first: float) -> float:
+        sizes = first, 0.001
+        modes, splits = [], []
+        for order, (key, size) in enumerate(zip(keys, sizes, strict=True)):
+            middle = 1000.0 * (order + 1)
+            lines = [
+                MeasuredMode(2 * order + i, f"{order}{i}", middle * np.exp(size * (i - 0.5) / 2), *key[:2])
+                for i in range(2)
+            ]
+            modes += [replace(line, frequency_sd_hz=0.01) for line in lines]
+            splits.append(MeasuredSplit(f"{order}0", f"{order}1", size + 0j, 1e-5))
+        predicted = {
+            key: PredictedMode(key, StatorMode(f, *key[:2], "radial", 1.0, 2, 0, 0), np.log(f), split, 1e-3)
+            for key, f, split in zip(keys, (1000.0, 2000.0), (first + 0j, 0.004 + 0j), strict=True)
+        }
+        test = MeasuredTest(0, "t", "free", tuple(modes), recorded, tuple(splits) if recorded else ())
+        held = tuple(key for key in keys for _ in range(2))
+        found = free_features(test, modes, held, predicted, {}, ModelError())
+        return max(abs(f.residual) for f in found if f.kind == "split" and f.key == keys[1])
+
+    assert residual_of_the_second(0.04) < 1.5
+    assert residual_of_the_second(0.001) > 5.0

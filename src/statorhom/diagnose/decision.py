@@ -37,6 +37,7 @@ class Evidence:
     nothing_adequacy, nothing_but_one : and of the declared model, with every row and without the worst.
     within : whether all magnitudes lie inside their physical ranges, off the bounds.
     stability : share of resamplings with the same winner.
+    confirmed : of two effects, whether held-out modes confirm the second one beside the first alone.
     """
 
     p_value: float
@@ -49,6 +50,7 @@ class Evidence:
     nothing_but_one: float
     within: bool
     stability: float
+    confirmed: bool = True
 
     @property
     def by_chance(self) -> bool:
@@ -80,8 +82,13 @@ class Evidence:
     @property
     def undecided(self) -> bool:
         """Whether rule 3 has too few modes that show anything: they cannot contradict, nor can they confirm."""
-        few = self.held_out is None or (self.held_out.informative < FEW and not self.held_out.worsens)
+        few = self.held_out is None or too_few(self.held_out)
         return few and bool(np.isfinite(self.over_others))
+
+
+def too_few(unseen: HeldOut) -> bool:
+    """Whether too few modes show what is missing for held-out ones to confirm or to contradict it."""
+    return unseen.informative < FEW and not unseen.worsens
 
 
 def is_chance(p_value: float, unpaired: bool) -> bool:
@@ -97,7 +104,7 @@ def decide(evidence: Evidence) -> Verdict:
         return "none" if enough or evidence.by_chance else "unknown"
     if not evidence.sound or not (evidence.predicts or evidence.undecided):
         return "unknown" if evidence.nothing_adequacy <= ADEQUATE else "none"
-    if not (evidence.predicts or evidence.evident):
+    if not (evidence.predicts or evidence.evident) or not evidence.confirmed:
         return "ambiguous"
     # resamplings are lost to rivals alone, so that an unstable winner has some
     alone = evidence.over_others > OVER_OTHERS and evidence.stability >= STABLE

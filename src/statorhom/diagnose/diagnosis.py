@@ -19,6 +19,7 @@ from statorhom.diagnose.decision import (
     Verdict,
     decide,
     others,
+    too_few,
     within_bounds,
 )
 from statorhom.diagnose.explanations import (
@@ -126,13 +127,14 @@ def _find(
     counts = dict(Counter(c.effect for c in candidates))
     progress = announce("explanations", 1)
     leading = leading_effects(approach, base, candidates, counts, settings.seed)
-    found = list(leading.found)
+    found, confirmed = list(leading.found), True
     if leading.misfit_is_real:
         if found and _is_open(found):
             found = approach.refined(found, leading.base.valleys, counts)
         # one gross error asks for no second effect
         if found and found[0].adequacy_but_one < ADEQUATE:
-            found = _pairs(leading, found, counts) + found
+            pairs, confirmed = _pairs(leading, found, counts)
+            found = pairs + found
         found = without_gross_rows(leading.base.free, found, counts)
     progress(1)
     none = nothing(leading.base.refit)
@@ -140,7 +142,7 @@ def _find(
     if found and not leading.by_chance(best):
         # reported numbers come from the explanation's own model, comparisons from the common one
         best = replace(approach.final(best), log_evidence=best.log_evidence, compared=best.compared)
-    evidence = _evidence(leading, best, none, found, settings.seed)
+    evidence = replace(_evidence(leading, best, none, found, settings.seed), confirmed=confirmed)
     return Found(decide(evidence), best, tuple(found), leading.scan, evidence, leading.base)
 
 
@@ -155,15 +157,21 @@ def _is_open(found: Sequence[Explanation]) -> bool:
     )
 
 
-def _pairs(leading: Leading, found: Sequence[Explanation], counts: dict[str, int]) -> list[Explanation]:
-    """The best explanation with one more effect, the best first; none where modes that it did not see contradict."""
+def _pairs(
+    leading: Leading, found: Sequence[Explanation], counts: dict[str, int]
+) -> tuple[list[Explanation], bool]:
+    """The best explanation with one more effect, the best first, and whether modes that it did not see confirm that.
+
+    None where these contradict.
+    """
     first = found[0]
     pairs = second_effects(first, rescanned(leading.scan, leading.base.free, first.refit), counts)
     if not pairs:
-        return []
+        return [], True
     # both effects have to hold: the second one against the first alone
     unseen = held_out(first.refit, pairs[0])
-    return pairs if unseen.falls and not unseen.worsens else []
+    confirmed = unseen.falls and not unseen.worsens
+    return (pairs, confirmed) if confirmed or too_few(unseen) else ([], True)
 
 
 def _evidence(

@@ -27,6 +27,9 @@ SCATTER_SD = (
 )
 SPLIT_OWN = 3e-4  # what the modes of one order differ by in it
 SPLIT_PART = 0.05  # of a split: shape and foot of what causes it are not known
+# of the splits of a test, root mean square: what of a local cause bends and what of it shears nearly cancels in some
+# mode, and the rest says more of its shape than of its size
+TYPICAL_PART = 0.1
 UNRESOLVED = 0.6  # of the loss factor: standard deviation of a split that shows one mode alone
 SHIFT_OWN, SHIFT_PART = 5e-5, 0.08  # of pole shifts from plane to plane: tangential motion, scatter
 LINEAR, KNEE = 8.0, 3.0  # residuals grow with their logarithm beyond: one outlier does not bend all constants
@@ -170,14 +173,16 @@ def free_features(
     discrepancy : relative standard deviation that is added to all frequencies.
     """
     found: list[Feature] = []
-    for key in dict.fromkeys(keys):
-        rows = [mode for mode, k in zip(modes, keys, strict=True) if k == key]
+    by_key = {
+        key: [mode for mode, k in zip(modes, keys, strict=True) if k == key] for key in dict.fromkeys(keys)
+    }
+    shape = TYPICAL_PART * _typical_split(test, [rows for key, rows in by_key.items() if key is not None])
+    for key, rows in by_key.items():
         if key is None:
             found += _lost(test, rows)
         elif key in predicted:
-            found += _mode_features(
-                test, rows, predicted[key], scatter, float(np.hypot(own_sd(error, key), discrepancy))
-            )
+            own = float(np.hypot(own_sd(error, key), discrepancy))
+            found += _mode_features(test, rows, predicted[key], scatter, own, shape)
         else:
             found += _vanished(test, rows, key)
     return found
@@ -240,7 +245,9 @@ def _mode_features(
     predicted: PredictedMode,
     scatter: Mapping[int, complex],
     own: float,
+    shape: float,
 ) -> list[Feature]:
+    """Of one mode; `own` and `shape` are what the mesh leaves open of its frequency, and a cause's shape of a split."""
     key = predicted.key
     scattered = predicted.scattered * scatter.get(key[0], 0j)
     split = predicted.split + scattered if predicted.multiplicity == 2 else 0j
@@ -256,13 +263,29 @@ def _mode_features(
         return [Feature("frequency", test.name, key, mean, predicted.log_f, float(np.hypot(sd, own)))]
     found = [Feature("frequency", test.name, key, mean, predicted.log_f, float(np.hypot(sd, own)))]
     if pairing is not None:
-        sd = float(np.sqrt(pairing.sd**2 + SPLIT_OWN**2 + (SPLIT_PART * abs(pairing.relative)) ** 2))
+        sd = _split_sd(pairing.sd, abs(pairing.relative), shape)
         parts = ((pairing.relative.real, split.real), (pairing.relative.imag, split.imag))
         return found + [Feature("split", test.name, key, m, p, sd) for m, p in parts]
-    size = 2 * float(np.log(high.frequency_hz / low.frequency_hz))
-    noise = 2 * float(np.hypot(measured_sd(low), measured_sd(high)))
-    sd = float(np.sqrt(noise**2 + SPLIT_OWN**2 + (SPLIT_PART * size) ** 2))
-    return [*found, Feature("split", test.name, key, size, abs(split), sd)]
+    size, noise = _size_of(rows), 2 * float(np.hypot(measured_sd(low), measured_sd(high)))
+    return [*found, Feature("split", test.name, key, size, abs(split), _split_sd(noise, size, shape))]
+
+
+def _split_sd(noise: float, size: float, shape: float) -> float:
+    return float(np.linalg.norm([noise, SPLIT_OWN, SPLIT_PART * size, shape]))
+
+
+def _size_of(rows: Sequence[MeasuredMode]) -> float:
+    """Split of λ by two lines, relative."""
+    return 2 * float(np.log(rows[-1].frequency_hz / rows[0].frequency_hz))
+
+
+def _typical_split(test: MeasuredTest, doublets: Sequence[Sequence[MeasuredMode]]) -> float:
+    """Root mean square of the splits that a test shows, none where it shows none."""
+    if test.recorded:
+        sizes = [abs(split.relative) for split in test.splits]
+    else:
+        sizes = [_size_of(rows) for rows in doublets if len(rows) > 1]
+    return float(np.sqrt(np.mean(np.square(sizes)))) if sizes else 0.0
 
 
 def _single(
