@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from small_stage import stage_of
 
+from statorhom.diagnose.assignment import assigned
 from statorhom.diagnose.counted_planes import _possible, counted_at_planes
-from statorhom.diagnose.features import assigned
 from statorhom.diagnose.measured import MeasuredShapes, MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.model.stator_mode import StatorMode

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from small_stage import stage_of
 
-from statorhom.diagnose.features import assigned
+from statorhom.diagnose.assignment import assigned
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.diagnose.shown_nodes import shown_nodes

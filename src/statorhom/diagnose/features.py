@@ -11,13 +11,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from statorhom.diagnose.assignment import Keys
 from statorhom.diagnose.measured import MeasuredSplit, MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.diagnose.sensor_response import SensorResponse
 from statorhom.identify.model_error import DEFAULT_RELATIVE_SD, ModelError
-from statorhom.identify.stage_problem import FOUND, GATE, HALF_FOUND, LABELLED_GATE, PAIRING_SD
 from statorhom.model.convergence import ModeKey
-from statorhom.modes.pairing import pair
 from statorhom.study.modal_table import MeasuredMode
 
 # of frequencies: floor, part of the mesh's correction, and what its square adds where the mesh is too coarse for that
@@ -38,11 +37,8 @@ MOST_LOSS = (
 )
 NUMBERED = -1  # in the place of n: a mode without a name, told by its row in the table
 USUAL_ORDERS = 6
-# of the distance up to which modes are partners: that of partners where most modes agree already
-NEAR = 0.2
 LOST, LOST_UNNAMED = 10.0, 4.0  # residual of a mode of a table that has no partner
-
-Keys = tuple[ModeKey | None, ...]
+TORN = 0.02  # typical split of a test in which names hardly say more than that there is a mode
 
 
 @dataclass(frozen=True)
@@ -104,54 +100,6 @@ def held_down(residual: float) -> float:
     return float(np.sign(residual) * (LINEAR + KNEE * np.log1p((size - LINEAR) / KNEE)))
 
 
-def assigned(
-    test: MeasuredTest,
-    modes: Sequence[MeasuredMode],
-    predicted: Mapping[ModeKey, PredictedMode],
-    reach: float = 1.0,
-) -> Keys:
-    """Named partner of every measured mode; `reach`: as a part of how far partners may usually lie apart."""
-    simulated = sorted((_as_seen(m, modes) for m in predicted.values()), key=lambda mode: mode.frequency_hz)
-    used = [i for i, mode in enumerate(modes) if not (test.recorded and mode.order is None)]
-    found = pair(
-        [modes[i] for i in used],
-        simulated,
-        reach * PAIRING_SD,
-        gate=GATE,
-        labelled_gate=LABELLED_GATE,
-        with_doubt=False,
-    )
-    keys: list[ModeKey | None] = [None] * len(modes)
-    for p in found.pairs:
-        keys[used[p.measured]] = simulated[p.simulated].key
-    return tuple(keys)
-
-
-def _as_seen(mode: PredictedMode, modes: Sequence[MeasuredMode]) -> PredictedMode:
-    """Called by the one of its counts of node planes that was measured nearest to its frequency."""
-    counts = mode.shown or (mode.axial,)
-    if mode.other_axial is not None:
-        counts = (*counts, mode.other_axial)
-    if counts == (mode.axial,):
-        return mode
-    away = dict.fromkeys(counts, np.inf)
-    for row in modes:
-        if row.order == mode.order and row.axial in away:
-            away[row.axial] = min(away[row.axial], abs(np.log(row.frequency_hz) - mode.log_f))
-    return replace(mode, counted=min(away, key=away.__getitem__))
-
-
-def missed_cost(test: MeasuredTest, keys: Keys, predicted: Mapping[ModeKey, PredictedMode]) -> float:
-    """-2 ln of the chance that a test found none of the visible modes of its band that have no partner."""
-    band = [mode.frequency_hz for mode in test.modes]
-    chances = [
-        1.0 - FOUND * mode.mode.visibility / (mode.mode.visibility + HALF_FOUND)
-        for key, mode in predicted.items()
-        if min(band) < mode.frequency_hz < max(band) and key not in keys
-    ]
-    return float(-2.0 * np.sum(np.log(chances)))
-
-
 def free_features(
     test: MeasuredTest,
     modes: Sequence[MeasuredMode],
@@ -176,13 +124,13 @@ def free_features(
     by_key = {
         key: [mode for mode, k in zip(modes, keys, strict=True) if k == key] for key in dict.fromkeys(keys)
     }
-    shape = TYPICAL_PART * _typical_split(test, [rows for key, rows in by_key.items() if key is not None])
+    typical = _typical_split(test, [rows for key, rows in by_key.items() if key is not None])
     for key, rows in by_key.items():
         if key is None:
-            found += _lost(test, rows)
+            found += _lost(test, rows, typical)
         elif key in predicted:
             own = float(np.hypot(own_sd(error, key), discrepancy))
-            found += _mode_features(test, rows, predicted[key], scatter, own, shape)
+            found += _mode_features(test, rows, predicted[key], scatter, own, TYPICAL_PART * typical)
         else:
             found += _vanished(test, rows, key)
     return found
@@ -201,15 +149,19 @@ def _vanished(test: MeasuredTest, rows: Sequence[MeasuredMode], key: ModeKey) ->
     ]
 
 
-def _lost(test: MeasuredTest, rows: Sequence[MeasuredMode]) -> list[Feature]:
-    """Modes without a partner; what a recording shows beyond the usual orders may be an image of another mode."""
+def _lost(test: MeasuredTest, rows: Sequence[MeasuredMode], typical: float) -> list[Feature]:
+    """Modes without a partner; what a recording shows beyond the usual orders may be an image of another mode.
+
+    What parts the lines of doublets by much mixes orders too, and a line may bear the name of any of them.
+    """
+    named = LOST_UNNAMED + (LOST - LOST_UNNAMED) * float(np.exp(-typical / TORN))
     kept = [m for m in rows if not test.recorded or (m.order is not None and m.order <= USUAL_ORDERS)]
     return [
         Feature(
             "frequency",
             test.name,
             None,
-            LOST if m.order is not None else LOST_UNNAMED,
+            named if m.order is not None else LOST_UNNAMED,
             0.0,
             1.0,
             lost=True,

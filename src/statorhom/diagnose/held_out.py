@@ -9,9 +9,10 @@ import numpy as np
 from typing_extensions import TypeVar
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
+from statorhom.diagnose.assignment import NEAR
 from statorhom.diagnose.derivatives import jacobian
 from statorhom.diagnose.explanations import Explanation
-from statorhom.diagnose.features import LOST, NEAR, Feature
+from statorhom.diagnose.features import LOST_UNNAMED, Feature
 from statorhom.diagnose.refit import Refit, refit
 from statorhom.errors import StatorhomError
 from statorhom.identify.stage_problem import LABELLED_GATE, PAIRING_SD
@@ -166,7 +167,7 @@ def _paired_rows(r: Refit) -> dict[Group, frozenset[str]]:
 def lacked(one: Refit, other: Refit) -> set[Group]:
     """Named modes of another fit whose rows have no partner in the one: it says that nothing is near (`LACKING`)."""
     features = one.hypothesis.features(one.z)
-    lost = {(f.test, row) for f in features if f.lost and f.measured == LOST for row in f.rows}
+    lost = {(f.test, row) for f in features if f.lost and f.measured > LOST_UNNAMED for row in f.rows}
     return {
         group
         for group, rows in _paired_rows(other).items()

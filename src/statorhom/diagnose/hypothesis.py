@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
+from statorhom.diagnose.assignment import NEAR, Keys, assigned, missed_cost
 from statorhom.diagnose.counted_planes import counted_at_planes
 from statorhom.diagnose.damping import (
     free_losses,
@@ -20,17 +21,7 @@ from statorhom.diagnose.damping import (
     with_shares,
 )
 from statorhom.diagnose.dimension_response import changed_geometry, step_of
-from statorhom.diagnose.features import (
-    NEAR,
-    Feature,
-    Keys,
-    assigned,
-    free_features,
-    loading,
-    missed_cost,
-    shift_features,
-    with_rows,
-)
+from statorhom.diagnose.features import Feature, free_features, loading, shift_features, with_rows
 from statorhom.diagnose.followed_modes import Names, names_of
 from statorhom.diagnose.levels import (
     common_keys,

@@ -155,7 +155,7 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: floa
     others: list[Refit] = []
     if best is not None and cheap:
         others = _beside_later_steps(best)
-    elif best is not None and costs_little and best.objective > known:
+    elif best is not None and costs_little and not far and best.objective > known:
         # beside a poor model the strongest effects are sought all over the prior in any case
         others = _elsewhere(starts[0])
     return min([best, *others], key=_objective) if best is not None else None

@@ -1,0 +1,72 @@
+"""Which predicted mode every measured one is, by name and frequency; and what it means that some were not found."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.prediction import PredictedMode
+from statorhom.identify.stage_problem import FOUND, GATE, HALF_FOUND, LABELLED_GATE, PAIRING_SD
+from statorhom.model.convergence import ModeKey
+from statorhom.modes.pairing import pair
+from statorhom.study.modal_table import MeasuredMode
+
+DOUBLET_SPLIT = 0.05  # of ln f: as far as two lines of one doublet usually lie apart
+AS_FAR = 1.3  # of a predicted split: up to which two lines are its own
+# of the distance up to which modes are partners: that of partners where most modes agree already
+NEAR = 0.2
+
+Keys = tuple[ModeKey | None, ...]
+
+
+def assigned(
+    test: MeasuredTest,
+    modes: Sequence[MeasuredMode],
+    predicted: Mapping[ModeKey, PredictedMode],
+    reach: float = 1.0,
+) -> Keys:
+    """Named partner of every measured mode; `reach`: as a part of how far partners may usually lie apart."""
+    simulated = sorted((_as_seen(m, modes) for m in predicted.values()), key=lambda mode: mode.frequency_hz)
+    used = [i for i, mode in enumerate(modes) if not (test.recorded and mode.order is None)]
+    found = pair(
+        [modes[i] for i in used],
+        simulated,
+        reach * PAIRING_SD,
+        gate=GATE,
+        labelled_gate=LABELLED_GATE,
+        # a heavy lump may part a doublet's lines by more than any scatter does
+        doublet_split=max(DOUBLET_SPLIT, *(AS_FAR * abs(m.split) / 2 for m in simulated), 0.0),
+        with_doubt=False,
+    )
+    keys: list[ModeKey | None] = [None] * len(modes)
+    for p in found.pairs:
+        keys[used[p.measured]] = simulated[p.simulated].key
+    return tuple(keys)
+
+
+def _as_seen(mode: PredictedMode, modes: Sequence[MeasuredMode]) -> PredictedMode:
+    """Called by the one of its counts of node planes that was measured nearest to its frequency."""
+    counts = mode.shown or (mode.axial,)
+    if mode.other_axial is not None:
+        counts = (*counts, mode.other_axial)
+    if counts == (mode.axial,):
+        return mode
+    away = dict.fromkeys(counts, np.inf)
+    for row in modes:
+        if row.order == mode.order and row.axial in away:
+            away[row.axial] = min(away[row.axial], abs(np.log(row.frequency_hz) - mode.log_f))
+    return replace(mode, counted=min(away, key=away.__getitem__))
+
+
+def missed_cost(test: MeasuredTest, keys: Keys, predicted: Mapping[ModeKey, PredictedMode]) -> float:
+    """-2 ln of the chance that a test found none of the visible modes of its band that have no partner."""
+    band = [mode.frequency_hz for mode in test.modes]
+    chances = [
+        1.0 - FOUND * mode.mode.visibility / (mode.mode.visibility + HALF_FOUND)
+        for key, mode in predicted.items()
+        if min(band) < mode.frequency_hz < max(band) and key not in keys
+    ]
+    return float(-2.0 * np.sum(np.log(chances)))

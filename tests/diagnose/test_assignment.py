@@ -1,0 +1,40 @@
+"""Lines of one doublet that lie far apart, and lines whose name may be another mode's."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from statorhom.diagnose.assignment import assigned
+from statorhom.diagnose.features import LOST, LOST_UNNAMED, free_features
+from statorhom.diagnose.measured import MeasuredSplit, MeasuredTest
+from statorhom.diagnose.prediction import PredictedMode
+from statorhom.identify.model_error import ModelError
+from statorhom.model.stator_mode import StatorMode
+from statorhom.study.modal_table import MeasuredMode
+
+KEY = (2, 2, 0)
+LINES = tuple(MeasuredMode(i, str(i), f, order=2, axial=2) for i, f in enumerate((5400.0, 5850.0)))
+
+
+def partners(split: complex) -> tuple[object, ...]:
+    mode = StatorMode(5620.0, 2, 2, "radial", 1.0, 2, 0, 0)
+    predicted = {KEY: PredictedMode(KEY, mode, float(np.log(5620.0)), split, 1e-3)}
+    return assigned(MeasuredTest(0, "t", "free", LINES, False), LINES, predicted)
+
+
+def test_lines_that_a_lump_parts_by_much_are_one_doublet_where_that_is_predicted() -> None:
+    assert partners(0.15 + 0j) == (KEY, KEY)
+    assert sorted(partners(0.001 + 0j), key=str) == [KEY, None]
+
+
+@pytest.mark.parametrize(
+    ("size", "least", "most"), [(0.0, LOST, LOST), (0.1, LOST_UNNAMED, LOST_UNNAMED + 0.2)]
+)
+def test_a_line_without_a_partner_says_less_where_doublets_are_torn_apart(
+    size: float, least: float, most: float
+) -> None:
+    stray = MeasuredMode(2, "2", 6270.0, order=2, axial=2)
+    test = MeasuredTest(0, "t", "free", (*LINES, stray), True, (MeasuredSplit("0", "1", size + 0j, 1e-4),))
+    (lost,) = free_features(test, (stray,), (None,), {}, {}, ModelError())
+    assert least <= lost.measured <= most
