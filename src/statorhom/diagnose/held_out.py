@@ -35,9 +35,12 @@ WEIGHT = {
     "density": 0.5,
 }
 
+WHAT = "each mode predicted from fits that did not see it (six folds)"
 Group = tuple[str, ModeKey | None]
 Part = tuple[Group, bool]  # of a group: its pole shifts, or the rest, whose model is far less certain
-LACKING = 100 * NEAR * LABELLED_GATE * PAIRING_SD  # percent: no mode of that name is predicted any nearer
+LACKING = round(
+    100 * NEAR * LABELLED_GATE * PAIRING_SD, 1
+)  # percent: no mode of that name is predicted any nearer
 WEIGHED: Group = ("", None)  # what is known of the densities
 MOVES = 0.5  # standard deviations by which an explanation moves a density of which it says something
 
@@ -58,7 +61,7 @@ class HeldOut:
     before: tuple[float, ...]
     after: tuple[float, ...]
     noise: tuple[float, ...]
-    what: str = "each mode predicted from fits that did not see it (six folds)"
+    what: str = WHAT
 
     @property
     def informative(self) -> int:
@@ -144,11 +147,13 @@ def _predicted(base: Refit, explanation: Explanation, folds: Sequence[frozenset[
         rows |= {part: (_lacking(e), e) for part, e in after.items() if part[0] in lacking[0]}
         rows |= {part: (e, _lacking(e)) for part, e in before.items() if part[0] in lacking[1]}
     used = sorted(rows, key=str)
+    lone = any(group in lacking[0] | lacking[1] for group, _ in used)
     return HeldOut(
         tuple(group for group, _ in used),
         tuple(rows[g][0].error for g in used),
         tuple(rows[g][1].error for g in used),
         tuple(float(np.hypot(rows[g][0].noise, max(e.spread for e in rows[g]))) for g in used),
+        f"{WHAT}; one that a model has not got counts as {LACKING} % off" if lone else WHAT,
     )
 
 

@@ -83,12 +83,16 @@ class Hypothesis(AnyHypothesis):
         StatorhomError
             If no stator has these constants.
         """
-        far, near = self._paired(z, 1.0), self._paired(z, NEAR)
+        far = self._paired(z, 1.0)
+        near = self._paired(z, NEAR, far.held)
         if far.held == near.held:
             return far
         return min(far, near, key=lambda h: float(np.sum(h.residuals(z) ** 2)) + h.missed)
 
-    def _paired(self, z: FloatArray, reach: float) -> Hypothesis:
+    def _paired(
+        self, z: FloatArray, reach: float, known: Mapping[str, Keys | Partners] | None = None
+    ) -> Hypothesis:
+        """With the pairing at z; `known` tells that of supported tests, which have no names to be near or far by."""
         values, actions = self.study.constants.values(z[: self.constants]), self.actions(z)
         held: dict[str, Keys | Partners] = {}
         names: dict[str, Names] = {}
@@ -98,17 +102,26 @@ class Hypothesis(AnyHypothesis):
                 found = self._predicted(stage, test, values, actions, self.mark(z))
                 names[test.name] = names_of({key: one.mode for key, one in found.items()})
                 if test.support != FREE:
-                    reference = supported_test(
-                        self.study.files, stage, test, actions, self.mark(z), shapes=True
+                    held[test.name] = (
+                        self._partners(stage, test, found, z) if known is None else known[test.name]
                     )
-                    there = acted_materials(self.study, stage, values, actions, test.name)
-                    held[test.name] = partners(stage, test, reference, found, there) if reference else ()
                 else:
                     seen = counted_at_planes(stage, test, found)
                     keys = assigned(test, self.modes(test, actions), seen, reach)
                     held[test.name] = keys
                     missed += missed_cost(test, keys, found)
         return replace(self, held=held, names=names, missed=missed)
+
+    def _partners(
+        self, stage: StageModel, test: MeasuredTest, found: Mapping[ModeKey, PredictedMode], z: FloatArray
+    ) -> Partners:
+        """Of a supported test's modes; none where its support cannot be modelled."""
+        values, actions = self.study.constants.values(z[: self.constants]), self.actions(z)
+        reference = supported_test(self.study.files, stage, test, actions, self.mark(z), shapes=True)
+        if reference is None:
+            return ()
+        there = acted_materials(self.study, stage, values, actions, test.name)
+        return partners(stage, test, reference, found, there)
 
     @staticmethod
     def modes(test: MeasuredTest, actions: Sequence[Action]) -> tuple[MeasuredMode, ...]:
