@@ -35,7 +35,8 @@ class Effect(ABC):
 
     Class attributes: `name` (formats.md), `summary` (one sentence for the report), `citation`, `confused_with`, and
     `note`, which says how magnitudes are modelled where that matters; `coupon_words` where plates, beams and wings
-    ask for others, and `tube_words` where tubes do; `on_tubes` where a tube has it in all ways that a stator has.
+    ask for others, and `tube_words` where tubes do; `on_tubes` where a tube has it in all ways that a stator has;
+    `open_by_shape`, what the unknown shape of a local cause leaves open of its magnitude, relative.
     """
 
     name: ClassVar[str]
@@ -46,6 +47,7 @@ class Effect(ABC):
     coupon_words: ClassVar[Words | None] = None
     tube_words: ClassVar[Words | None] = None
     on_tubes: ClassVar[bool] = False
+    open_by_shape: ClassVar[float] = 0.05
 
     @abstractmethod
     def candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
