@@ -142,7 +142,8 @@ def _find(
     if found and not leading.by_chance(best):
         # reported numbers come from the explanation's own model, comparisons from the common one
         best = replace(approach.final(best), log_evidence=best.log_evidence, compared=best.compared)
-    evidence = replace(_evidence(leading, best, none, found, settings.seed), confirmed=confirmed)
+    evidence = _evidence(leading, best, none, found, settings.seed)
+    evidence = replace(evidence, confirmed=confirmed or len(best.candidates) < 2)
     return Found(decide(evidence), best, tuple(found), leading.scan, evidence, leading.base)
 
 

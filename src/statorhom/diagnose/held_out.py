@@ -38,9 +38,8 @@ WEIGHT = {
 WHAT = "each mode predicted from fits that did not see it (six folds)"
 Group = tuple[str, ModeKey | None]
 Part = tuple[Group, bool]  # of a group: its pole shifts, or the rest, whose model is far less certain
-LACKING = round(
-    100 * NEAR * LABELLED_GATE * PAIRING_SD, 1
-)  # percent: no mode of that name is predicted any nearer
+# percent: how far off a mode counts as that a model has not got, which predicts none of that name any nearer
+LACKING = round(100 * NEAR * LABELLED_GATE * PAIRING_SD, 1)
 WEIGHED: Group = ("", None)  # what is known of the densities
 MOVES = 0.5  # standard deviations by which an explanation moves a density of which it says something
 
