@@ -115,21 +115,16 @@ def random_materials(space: ParameterSpace, materials: StageMaterials, count: in
             drawn = materials.of(space.values(space.bounds.clip(space.prior_mean + root @ z)))
         except MaterialError:
             continue
-        found += typical([drawn])
+        if is_typical(drawn):
+            found.append(drawn)
     return found
 
 
-def typical(several: Sequence[Materials]) -> list[Materials]:
-    """Those whose winding, if there is one, is neither softer nor stiffer than windings are."""
+def is_typical(materials: Materials) -> bool:
+    """Whether its winding, if there is one, is neither softer nor stiffer than windings are."""
     low, high = TYPICAL_PA
-    windings = [
-        [m.hooke for region, m in materials.items() if region != "lamination"] for materials in several
-    ]
-    return [
-        materials
-        for materials, hookes in zip(several, windings, strict=True)
-        if all(low <= 1.0 / hooke.compliance[0, 0] <= high for hooke in hookes)
-    ]
+    windings = (m for region, m in materials.items() if region != "lamination")
+    return all(low <= 1.0 / winding.hooke.compliance[0, 0] <= high for winding in windings)
 
 
 def _build(task: tuple[AffineModel, Harmonic, MaterialBox, float], tick: Tick) -> ReducedHarmonic:
@@ -224,7 +219,7 @@ def errors(
 def measured_step(study: Study, name: str, points: int, jobs: int, plan: Plan) -> dict[str, Any]:
     """All figures of a step."""
     model, space, materials = step_box(study, name)
-    training = typical(training_materials(space, materials, plan.training))
+    training = [m for m in training_materials(space, materials, plan.training) if is_typical(m)]
     box = material_box(training, model.mesh.regions, plan.radius, plan.cells, room_radius=plan.room_radius)
     spaces = [s for h in all_orders(model.mesh.slots) for s in harmonic_spaces(model.mesh, h)]
     several = random_materials(space, materials, points)

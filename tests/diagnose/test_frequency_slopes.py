@@ -2,23 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from template_hypothesis import template_hypothesis
 
-from statorhom import Study
-from statorhom.command_line.template import write_template
 from statorhom.diagnose import derivatives
-from statorhom.diagnose.constants import study_constants
-from statorhom.diagnose.features import SCATTER_SD
 from statorhom.diagnose.hypothesis import Hypothesis
-from statorhom.diagnose.recorded import measured_tests
-from statorhom.diagnose.stage_model import mesh_error, stage_model
-from statorhom.diagnose.study_model import StudyModel
-from statorhom.geometry.stator import stator_geometry
-from statorhom.identify.stage_setup import stage_setup
-from statorhom.mesh import uniform
+from statorhom.diagnose.stage_model import mesh_error
 
 STEP = 1e-3  # of internal coordinates
 DOUBLET = "frequency_hz,order,axial\n1428,2,0\n1434,2,0\n1766,2,1\n3770,3,0\n6200,0,1\n"
@@ -38,22 +28,8 @@ declared = "rigid"
 
 @pytest.fixture(scope="module")
 def hypothesis(tmp_path_factory: pytest.TempPathFactory) -> Hypothesis:
-    folder: Path = tmp_path_factory.mktemp("study")
-    write_template(folder)
-    (folder / "stack-free.csv").write_text(DOUBLET)
-    (folder / "stack-clamped.csv").write_text("frequency_hz\n640\n1130\n1300\n")
-    with (folder / "study.toml").open("a") as study:
-        study.write(CLAMPED)
-    files = Study.load(folder / "study.toml").files
-    files, tests = measured_tests(files, folder)
-    geometry = stator_geometry(files.geometry, files.geometry_path)
-    setup = stage_setup(files, geometry, 0)
-    constants = study_constants([setup], [2, 3], SCATTER_SD)
-    study = StudyModel(files, geometry, constants, ())
-    values = constants.values(np.zeros(len(constants)))
-    materials = study.declared(setup, values, study.masses(values, {}))
-    stage = stage_model(setup, list(tests.values()), [materials], uniform(1))
-    return Hypothesis(study.with_stages((stage,)))
+    tables = {"stack-free.csv": DOUBLET, "stack-clamped.csv": "frequency_hz\n640\n1130\n1300\n"}
+    return template_hypothesis(tmp_path_factory.mktemp("study"), tables, CLAMPED)
 
 
 def test_slopes_are_those_of_moved_constants(hypothesis: Hypothesis) -> None:

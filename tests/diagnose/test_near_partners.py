@@ -3,24 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from template_hypothesis import template_hypothesis
 
-from statorhom import Study
-from statorhom.command_line.template import write_template
-from statorhom.diagnose.constants import study_constants
-from statorhom.diagnose.features import SCATTER_SD
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import predicted
-from statorhom.diagnose.recorded import measured_tests
-from statorhom.diagnose.stage_model import stage_model
-from statorhom.diagnose.study_model import StudyModel
-from statorhom.geometry.stator import stator_geometry
-from statorhom.identify.stage_setup import stage_setup
-from statorhom.mesh import uniform
 from statorhom.study.modal_table import MeasuredMode
 
 STRAY = 0.15  # of ln f: how far a mode with the name of another lies off
@@ -29,18 +19,8 @@ STRAY = 0.15  # of ln f: how far a mode with the name of another lies off
 @pytest.fixture(scope="module")
 def empty(tmp_path_factory: pytest.TempPathFactory) -> Hypothesis:
     """The declared model of a stack whose test is to be replaced."""
-    folder: Path = tmp_path_factory.mktemp("study")
-    write_template(folder)
-    (folder / "stack-free.csv").write_text("frequency_hz,order,axial\n1428,2,0\n3770,3,0\n")
-    files = Study.load(folder / "study.toml").files
-    files, tests = measured_tests(files, folder)
-    setup = stage_setup(files, stator_geometry(files.geometry, files.geometry_path), 0)
-    constants = study_constants([setup], [2, 3], SCATTER_SD)
-    study = StudyModel(files, stator_geometry(files.geometry, files.geometry_path), constants, ())
-    values = constants.values(np.zeros(len(constants)))
-    materials = study.declared(setup, values, study.masses(values, {}))
-    stage = stage_model(setup, list(tests.values()), [materials], uniform(1))
-    return Hypothesis(study.with_stages((stage,)))
+    table = "frequency_hz,order,axial\n1428,2,0\n3770,3,0\n"
+    return template_hypothesis(tmp_path_factory.mktemp("study"), {"stack-free.csv": table})
 
 
 def measured(empty: Hypothesis, shifts: dict[tuple[int, int], float]) -> Hypothesis:

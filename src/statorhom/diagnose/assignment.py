@@ -11,10 +11,9 @@ from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.identify.stage_problem import FOUND, GATE, HALF_FOUND, LABELLED_GATE, PAIRING_SD
 from statorhom.model.convergence import ModeKey
-from statorhom.modes.pairing import pair
+from statorhom.modes.pairing import DOUBLET_SPLIT, pair
 from statorhom.study.modal_table import MeasuredMode
 
-DOUBLET_SPLIT = 0.05  # of ln f: as far as two lines of one doublet usually lie apart
 AS_FAR = 1.3  # of a predicted split: up to which two lines are its own
 # of the distance up to which modes are partners: that of partners where most modes agree already
 NEAR = 0.2
@@ -38,7 +37,7 @@ def assigned(
         gate=GATE,
         labelled_gate=LABELLED_GATE,
         # a heavy lump may part a doublet's lines by more than any scatter does
-        doublet_split=max(DOUBLET_SPLIT, *(AS_FAR * abs(m.split) / 2 for m in simulated), 0.0),
+        doublet_split=max([DOUBLET_SPLIT, *(AS_FAR * abs(m.split) / 2 for m in simulated)]),
         with_doubt=False,
     )
     keys: list[ModeKey | None] = [None] * len(modes)

@@ -75,6 +75,11 @@ class Feature:
         return held_down((self.measured - self.predicted) / self.sd)
 
     @property
+    def stray(self) -> bool:
+        """Whether it stands for a named mode that has no partner."""
+        return self.lost and self.measured > LOST_UNNAMED
+
+    @property
     def mode(self) -> tuple[int, ...] | None:
         """As files name it: (r, n), or the row of a mode without a name."""
         if self.key is None:

@@ -12,7 +12,7 @@ from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.assignment import NEAR
 from statorhom.diagnose.derivatives import jacobian
 from statorhom.diagnose.explanations import Explanation
-from statorhom.diagnose.features import LOST_UNNAMED, Feature
+from statorhom.diagnose.features import Feature
 from statorhom.diagnose.refit import Refit, refit
 from statorhom.errors import StatorhomError
 from statorhom.identify.stage_problem import LABELLED_GATE, PAIRING_SD
@@ -40,6 +40,8 @@ Group = tuple[str, ModeKey | None]
 Part = tuple[Group, bool]  # of a group: its pole shifts, or the rest, whose model is far less certain
 # percent: how far off a mode counts as that a model has not got, which predicts none of that name any nearer
 LACKING = round(100 * NEAR * LABELLED_GATE * PAIRING_SD, 1)
+Lacking = tuple[set[Group], set[Group]]  # by the declared model, and by the explanation
+NOTHING: Lacking = set(), set()
 WEIGHED: Group = ("", None)  # what is known of the densities
 MOVES = 0.5  # standard deviations by which an explanation moves a density of which it says something
 
@@ -125,8 +127,9 @@ def held_out(base: Refit, explanation: Explanation) -> HeldOut:
 
     A density is what no recording saw: that the recordings alone ask for a plausible one is a test of its own.
     """
-    groups = [g for g in _groups(base, explanation) if g not in {WEIGHED, *explanation.set_aside}]
-    found = _predicted(base, explanation, [frozenset(groups[k::FOLDS]) for k in range(FOLDS)])
+    lacking = lacked(base, explanation.refit), lacked(explanation.refit, base)
+    groups = [g for g in _groups(base, explanation, lacking) if g not in {WEIGHED, *explanation.set_aside}]
+    found = _predicted(base, explanation, [frozenset(groups[k::FOLDS]) for k in range(FOLDS)], lacking)
     if not found.falls and not found.worsens and _moves_densities(base, explanation):
         weighed = _predicted(base, explanation, [frozenset([WEIGHED])])
         if weighed.falls:
@@ -134,9 +137,10 @@ def held_out(base: Refit, explanation: Explanation) -> HeldOut:
     return found
 
 
-def _predicted(base: Refit, explanation: Explanation, folds: Sequence[frozenset[Group]]) -> HeldOut:
+def _predicted(
+    base: Refit, explanation: Explanation, folds: Sequence[frozenset[Group]], lacking: Lacking = NOTHING
+) -> HeldOut:
     groups = {g for fold in folds for g in fold}
-    lacking = lacked(base, explanation.refit), lacked(explanation.refit, base)
     rows: dict[Part, tuple[_Error, _Error]] = {}
     for fold in folds:
         if not fold or (len(fold) == len(groups) and fold != {WEIGHED}):
@@ -156,11 +160,10 @@ def _predicted(base: Refit, explanation: Explanation, folds: Sequence[frozenset[
     )
 
 
-def _groups(base: Refit, explanation: Explanation) -> list[Group]:
+def _groups(base: Refit, explanation: Explanation, lacking: Lacking) -> list[Group]:
     """Modes that both have a partner for, or one has and the other has none; tests mixed."""
-    refits = base, explanation.refit
-    both = set(_paired_rows(refits[0])) & set(_paired_rows(refits[1]))
-    return sorted(both | lacked(*refits) | lacked(*refits[::-1]), key=str)
+    both = set(_paired_rows(base)) & set(_paired_rows(explanation.refit))
+    return sorted(both.union(*lacking), key=str)
 
 
 def _paired_rows(r: Refit) -> dict[Group, frozenset[str]]:
@@ -171,7 +174,7 @@ def _paired_rows(r: Refit) -> dict[Group, frozenset[str]]:
 def lacked(one: Refit, other: Refit) -> set[Group]:
     """Named modes of another fit whose rows have no partner in the one: it says that nothing is near (`LACKING`)."""
     features = one.hypothesis.features(one.z)
-    lost = {(f.test, row) for f in features if f.lost and f.measured > LOST_UNNAMED for row in f.rows}
+    lost = {(f.test, row) for f in features if f.stray for row in f.rows}
     return {
         group
         for group, rows in _paired_rows(other).items()

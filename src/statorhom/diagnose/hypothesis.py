@@ -83,34 +83,34 @@ class Hypothesis(AnyHypothesis):
         StatorhomError
             If no stator has these constants.
         """
-        far = self._paired(z, 1.0)
-        near = self._paired(z, NEAR, far.held)
-        if far.held == near.held:
-            return far
-        return min(far, near, key=lambda h: float(np.sum(h.residuals(z) ** 2)) + h.missed)
-
-    def _paired(
-        self, z: FloatArray, reach: float, known: Mapping[str, Keys | Partners] | None = None
-    ) -> Hypothesis:
-        """With the pairing at z; `known` tells that of supported tests, which have no names to be near or far by."""
         values, actions = self.study.constants.values(z[: self.constants]), self.actions(z)
         held: dict[str, Keys | Partners] = {}
         names: dict[str, Names] = {}
-        missed = 0.0
+        free: list[tuple[MeasuredTest, Mapping[ModeKey, PredictedMode]]] = []
         for stage in self.study.stages:
             for test in stage.tests:
                 found = self._predicted(stage, test, values, actions, self.mark(z))
                 names[test.name] = names_of({key: one.mode for key, one in found.items()})
                 if test.support != FREE:
-                    held[test.name] = (
-                        self._partners(stage, test, found, z) if known is None else known[test.name]
-                    )
+                    held[test.name] = self._partners(stage, test, found, z)
                 else:
-                    seen = counted_at_planes(stage, test, found)
-                    keys = assigned(test, self.modes(test, actions), seen, reach)
-                    held[test.name] = keys
-                    missed += missed_cost(test, keys, found)
-        return replace(self, held=held, names=names, missed=missed)
+                    free.append((test, counted_at_planes(stage, test, found)))
+        rest = replace(self, held=held, names=names)
+        far, near = (rest._with_free(free, actions, reach) for reach in (1.0, NEAR))
+        if far.held == near.held:
+            return far
+        return min(far, near, key=lambda h: float(np.sum(h.residuals(z) ** 2)) + h.missed)
+
+    def _with_free(
+        self,
+        free: Sequence[tuple[MeasuredTest, Mapping[ModeKey, PredictedMode]]],
+        actions: Sequence[Action],
+        reach: float,
+    ) -> Hypothesis:
+        """With partners of free tests too, no farther away than `reach` says."""
+        keys = {test.name: assigned(test, self.modes(test, actions), found, reach) for test, found in free}
+        missed = sum(missed_cost(test, keys[test.name], found) for test, found in free)
+        return replace(self, held={**(self.held or {}), **keys}, missed=missed)
 
     def _partners(
         self, stage: StageModel, test: MeasuredTest, found: Mapping[ModeKey, PredictedMode], z: FloatArray

@@ -11,6 +11,7 @@ from statorhom.diagnose.features import Feature
 from statorhom.diagnose.held_out import LACKING, lacked
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.sides import one_by_one, opposite_location
+from statorhom.physics.candidate import Candidate
 from statorhom.physics.declared import DeclaredEffect
 from statorhom.physics.library import library
 from statorhom.physics.parameter import EffectParameter
@@ -93,23 +94,23 @@ def _intervals(explanation: Explanation, number: int) -> dict[str, tuple[float, 
         parameter: EffectParameter = r.hypothesis.candidates[i].parameters[j]
         if i == number and not parameter.located:
             place = r.hypothesis.constants + k
-            candidate = r.hypothesis.candidates[i]
-            part = library()[candidate.effect].open_by_shape if candidate.located else 0.0
-            shape = _shape_spread(parameter, float(r.z[place]), part)
+            shape = _shape_spread(r.hypothesis.candidates[i], parameter, float(r.z[place]))
             spread = Z90 * float(np.hypot(np.sqrt(covariance[place, place]), shape))
             low, high = (parameter.value(r.z[place] + sign * spread) for sign in (-1, 1))
             found[parameter.name] = (low, high)
     return found
 
 
-def _shape_spread(parameter: EffectParameter, z: float, part: float) -> float:
-    """What the unknown shape of a local cause leaves open of its magnitude, in internal units; `part` of it.
+def _shape_spread(candidate: Candidate, parameter: EffectParameter, z: float) -> float:
+    """What the unknown shape of a local cause leaves open of its magnitude, in internal units.
 
     All splits share it, so that more of them do not average it out as they do what each has by itself.
     """
+    if not candidate.located:
+        return 0.0
     slope = (parameter.value(z + STEP) - parameter.value(z - STEP)) / (2 * STEP)
     size = abs(parameter.value(z) - (parameter.absent or 0.0))
-    return part * size / abs(slope) if slope else 0.0
+    return library()[candidate.effect].open_by_shape * size / abs(slope) if slope else 0.0
 
 
 def frequency_errors(r: Refit, other: Refit) -> Errors:

@@ -14,6 +14,7 @@ from scipy.optimize import linear_sum_assignment
 from statorhom.modes.mode_protocols import LabelledMode, SimulatedMode
 from statorhom.modes.pairing_cost import UNPAIRED, FloatArray, PairingCost, pairing_cost
 
+DOUBLET_SPLIT = 0.05  # of ln f: as far as two lines of one doublet usually lie apart
 MOST = 500  # assignments that are compared before the cheaper of two ways is followed alone
 
 
@@ -49,7 +50,7 @@ def pair(
     *,
     gate: float = 4.0,
     labelled_gate: float = 12.0,
-    doublet_split: float = 0.05,
+    doublet_split: float = DOUBLET_SPLIT,
     with_doubt: bool = True,
 ) -> Pairing:
     """Pair modes so that the sum of the costs is the least (an optimal assignment).

@@ -1,0 +1,38 @@
+"""The declared model of the template's stack, on a coarse mesh, as a diagnosis sees it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from statorhom import Study
+from statorhom.command_line.template import write_template
+from statorhom.diagnose.constants import study_constants
+from statorhom.diagnose.features import SCATTER_SD
+from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.diagnose.recorded import measured_tests
+from statorhom.diagnose.stage_model import stage_model
+from statorhom.diagnose.study_model import StudyModel
+from statorhom.geometry.stator import stator_geometry
+from statorhom.identify.stage_setup import stage_setup
+from statorhom.mesh import uniform
+
+
+def template_hypothesis(folder: Path, tables: dict[str, str], more: str = "") -> Hypothesis:
+    """Of a study with modal tables of these names; `more` is added to its file."""
+    write_template(folder)
+    for name, table in tables.items():
+        (folder / name).write_text(table)
+    with (folder / "study.toml").open("a") as study:
+        study.write(more)
+    files = Study.load(folder / "study.toml").files
+    files, tests = measured_tests(files, folder)
+    geometry = stator_geometry(files.geometry, files.geometry_path)
+    setup = stage_setup(files, geometry, 0)
+    constants = study_constants([setup], [2, 3], SCATTER_SD)
+    model = StudyModel(files, geometry, constants, ())
+    values = constants.values(np.zeros(len(constants)))
+    materials = model.declared(setup, values, model.masses(values, {}))
+    stage = stage_model(setup, list(tests.values()), [materials], uniform(1))
+    return Hypothesis(model.with_stages((stage,)))
