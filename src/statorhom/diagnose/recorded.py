@@ -35,7 +35,7 @@ from statorhom.study.modal_table import MeasuredMode, ModalTable
 from statorhom.study.modal_tests import ModalTestKeys
 from statorhom.study.study import StudyFiles
 
-FOLDER, FORMAT = "recordings", 13  # a change of method makes what is kept stale
+FOLDER, FORMAT = "recordings", 14  # a change of method makes what is kept stale
 # A resonance of a loss factor of 8 % has others under its flanks: recordings of a known stator then miss frequencies
 # by 0.1 to 0.7 %, whatever the noise; at 5 % they hardly do.
 OVERLAP = 8.0
@@ -131,15 +131,14 @@ def from_recording(measured: MeasuredModes, stage: int, name: str, support: str,
         # both modes of a doublet move alike: each point sees the one whose antinode it is
         own = [moved[label] for i in (d.lower, d.upper) if (label := str(i + 1)) in moved]
         moved |= {str(i + 1): own[0] for i in (d.lower, d.upper) if own}
+    uneven = {i: _uneven(measured, d) for d in doublets for i in (d.lower, d.upper)}
     doubtful = set() if flat else doubtful_axial(measured.modes, sorted(kept))
     rows = [
         replace(
             row,
             frequency_hz=row.frequency_hz * moved.get(row.label, 1.0),
             axial=None if i in doubtful else row.axial,
-            frequency_sd_hz=float(
-                np.hypot(row.frequency_sd_hz or 0.0, overlap_sd(row.loss_factor) * row.frequency_hz)
-            ),
+            frequency_sd_hz=_frequency_sd(row, uneven.get(i, 0.0)),
         )
         for i, row in enumerate(modal_table(measured, path).modes)
     ]
@@ -164,8 +163,23 @@ def _split(measured: MeasuredModes, d: DoubletPair) -> MeasuredSplit:
     # of two modes that a sensor moves a point sees one: what their poles differ by is known no better than they move
     moved = min(_moved(mode) for mode in modes)
     broad = overlap_sd(max(mode.loss_factor for mode in modes))
-    known = float(np.linalg.norm([sd, 2.0 * moved, 2.0 * broad]))
+    known = float(np.linalg.norm([sd, 2.0 * moved, 2.0 * broad, _uneven(measured, d)]))
     return MeasuredSplit(str(d.lower + 1), str(d.upper + 1), d.split / mean, known)
+
+
+def _uneven(measured: MeasuredModes, d: DoubletPair) -> float:
+    """What the loss factors of a doublet's modes differ by: they dissipate alike, so that poles are off by as much.
+
+    A neighbour under the same peak pulls a pole along both of its axes, and no noise tells how far.
+    """
+    low, high = (measured.modes[i].mode.loss_factor for i in (d.lower, d.upper))
+    return abs(high - low)
+
+
+def _frequency_sd(row: MeasuredMode, uneven: float) -> float:
+    """Standard deviation of a frequency (Hz), with what neighbours leave open."""
+    relative = float(np.hypot(overlap_sd(row.loss_factor), 0.5 * uneven))
+    return float(np.hypot(row.frequency_sd_hz or 0.0, relative * row.frequency_hz))
 
 
 def overlap_sd(loss_factor: float | None) -> float:
