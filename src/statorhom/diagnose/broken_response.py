@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from statorhom.diagnose.order_profiles import broken_profiles
 from statorhom.diagnose.shown_nodes import shown_nodes
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.model.broken.change import Change
@@ -29,9 +30,10 @@ def responses(
     trained = stage.trained(trainings)
     modes = solve_broken(trained.basis, changes, tolerance=None)
     shown = shown_nodes(modes, trained.columns, stage.reference_keys)
+    profiles = broken_profiles(stage, trained, modes) if stage.heights_m else {}
     found = {key: named_response(modes, place) for key, place in trained.columns.items()}
     return {
-        key: replace(response, other_axial=shown.get(key))
+        key: replace(response, other_axial=shown.get(key), profile=profiles.get(key))
         for key, response in found.items()
         if response is not None
     }

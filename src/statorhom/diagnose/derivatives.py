@@ -47,6 +47,20 @@ def _(h: Hypothesis, z: FloatArray) -> FloatArray:
     start = [base[i] for i in seen]
     known = by_frequency(h, z, told, base)
     nothing = np.zeros(len(base))  # a constant of a step that has no test
-    columns = [known.get(j, nothing)[seen] for j in range(h.constants)]
+    graded = _graded(h, z)
+    columns = [
+        difference(h, z, j, start) if j in graded else known.get(j, nothing)[seen] for j in range(h.constants)
+    ]
     columns += [difference(h, z, j, start) for j in range(h.constants, len(z))]
     return np.array(columns).T.reshape(len(start), len(z))
+
+
+def _graded(h: Hypothesis, z: FloatArray) -> set[int]:
+    """Constants of materials whose stiffness varies from place to place: shapes and splits follow them too."""
+    stages = [
+        stage
+        for stage in h.study.stages
+        if any(a.graded and a.touches(stage.name, test.name) for a in h.actions(z) for test in stage.tests)
+    ]
+    owned = {name for stage in stages for name in h.study.constants.owners[stage.setup.index].values()}
+    return {j for j, name in enumerate(h.study.constants.names) if name in owned}

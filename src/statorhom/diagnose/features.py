@@ -47,7 +47,7 @@ class Feature:
 
     Parameters
     ----------
-    kind : "frequency", "split", "shift", "shape", "density", "loss", "level", "level_loss".
+    kind : "frequency", "split", "shift", "lean", "shape", "density", "loss", "level", "level_loss".
     test : of which test, empty for densities.
     key : of which mode.
     measured, predicted : ln f, relative split, relative shift, kg/m³, ln η, or the change of ln f or ln η from the

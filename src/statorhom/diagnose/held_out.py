@@ -25,11 +25,13 @@ LEAST_FALL = 0.25
 LEAST_NOISE = 1e-3  # percent
 ERRORS = 2.0  # standard errors that the fall must exceed
 WORSE = 1.5  # a group worsens when its error grows by this and beyond its noise
-# of features other than frequencies, in terms of a frequency: split of λ, shift of a pole, level, a density's error
+# of features other than frequencies, in terms of a frequency: split of λ, shift of a pole, lean of a shape, level, a
+# density's error
 WEIGHT = {
     "frequency": 1.0,
     "split": 0.25,
     "shift": 1.0,
+    "lean": 0.1,
     "level": 1.0,
     "level_loss": 0.005,
     "density": 0.5,

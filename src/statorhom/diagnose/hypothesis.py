@@ -23,6 +23,7 @@ from statorhom.diagnose.damping import (
 from statorhom.diagnose.dimension_response import changed_geometry, step_of
 from statorhom.diagnose.features import Feature, free_features, loading, shift_features, with_rows
 from statorhom.diagnose.followed_modes import Names, names_of
+from statorhom.diagnose.lean import lean_features
 from statorhom.diagnose.levels import (
     common_keys,
     force_levels,
@@ -273,6 +274,8 @@ class Hypothesis(AnyHypothesis):
         if response is not None:
             labels = {m.label: k for m, k in zip(measured, keys, strict=True) if k is not None}
             found += shift_features(test, labels, response, sensor)
+        if stage.heights_m and test.shapes is not None:
+            found += lean_features(test, measured, keys, modes, stage.heights_m)
         return with_rows(found, measured, keys)
 
     def densities(self, values: Mapping[str, float], actions: Sequence[Action]) -> list[Feature]:

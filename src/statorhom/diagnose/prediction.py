@@ -10,6 +10,7 @@ import numpy as np
 from statorhom.diagnose.broken_response import Response, responses
 from statorhom.diagnose.dimension_response import dimension_shift
 from statorhom.diagnose.followed_modes import Names, named
+from statorhom.diagnose.order_profiles import reference_profiles
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.identify.stage_problem import NamedByMode, seen
@@ -47,6 +48,7 @@ class PredictedMode(NamedByMode):
     other_axial : count of node planes that the hypothesis may make it show instead of its own.
     shown : counts that a test's planes may show instead of its own, the likeliest first; empty where they are unknown.
     counted : what it is counted by, where that is not its own count.
+    profile : (heights,) its order's radial motion at the stage's `heights_m`; None where nobody measured it.
     """
 
     key: ModeKey
@@ -61,6 +63,7 @@ class PredictedMode(NamedByMode):
     other_axial: int | None = None
     shown: tuple[int, ...] = ()
     counted: int | None = None
+    profile: np.ndarray | None = None
 
     @property
     def axial(self) -> int | None:
@@ -145,8 +148,9 @@ def predicted(
         pairs = zip(actions, mark, strict=True)
         mark = tuple(m for a, m in pairs if a.changes and a.touches(stage.name, test))
     base = _base(stage, materials, here, names)
-    shifts = broken_responses(stage, here, None if mark is None else (test, mark))
+    shifts = broken_responses(stage, here, materials, None if mark is None else (test, mark))
     mesh = values[f"{stage.name}:mesh"]
+    own = reference_profiles(stage) if stage.heights_m else {}
     found = {}
     for key, one in base.items():
         shared = stage.error.shared(key)
@@ -166,19 +170,28 @@ def predicted(
             one.slope,
             scattered=stage.scattered.get(key, 1.0),
             other_axial=response.other_axial,
+            profile=own.get(key) if response.profile is None else response.profile,
         )
     return found
 
 
 def broken_responses(
-    stage: StageModel, actions: Sequence[Action], mark: Hashable = None
+    stage: StageModel, actions: Sequence[Action], materials: Materials, mark: Hashable = None
 ) -> Mapping[ModeKey, Response]:
     """Shifts and splits by all that breaks the symmetry; those of a few marks are kept."""
-    if not any(a.changes for a in actions):
+    acting = [a for a in actions if a.changes]
+    if not acting:
         return {}
     known = stage.kept_responses
+    if mark is not None and any(a.graded for a in acting):
+        mark = mark, material_vector(materials, list(materials)).tobytes()
     if mark is None or mark not in known:
-        changes = [c for a in actions if a.changes for c in a.changes(stage.model.mesh, stage.reference)]
+        changes = [
+            c
+            for a in acting
+            if a.changes
+            for c in a.changes(stage.model.mesh, materials if a.graded else stage.reference)
+        ]
         trainings = [a.training for a in actions if a.training is not None]
         found = responses(stage, changes, trainings) if changes else {}
         if mark is None:

@@ -29,6 +29,7 @@ from statorhom.model.harmonic import Harmonic
 from statorhom.model.pitch_parts import pitch_parts
 from statorhom.model.stator_mode import StatorMode
 from statorhom.physics.action import Training
+from statorhom.study.study_file import FREE
 
 BAND = 1.12  # predictions reach this much higher than the highest measured mode
 BROKEN_MARGIN = 1.25
@@ -77,6 +78,14 @@ class StageModel:
     def model(self) -> AffineModel:
         """The mesh's matrices."""
         return self.ring.model
+
+    @cached_property
+    def heights_m(self) -> tuple[float, ...]:
+        """Where its free tests measured shapes along the axis, ascending; empty where none did."""
+        planes = {
+            z for t in self.tests if t.support == FREE and t.shapes is not None for z in t.shapes.z_m.tolist()
+        }
+        return tuple(sorted(planes)) if len(planes) > 1 else ()
 
     @property
     def orders(self) -> tuple[int, ...]:

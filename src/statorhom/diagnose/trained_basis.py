@@ -6,8 +6,9 @@ apart. One static response to every example's residual holds most of that; it is
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -31,10 +32,12 @@ class TrainedBasis:
     ----------
     basis : of the symmetric stator.
     columns : places of the named modes.
+    amplitudes : what is kept of the motion that its coordinates make (`statorhom.diagnose.order_profiles`).
     """
 
     basis: SymmetricBasis
     columns: Mapping[ModeKey, Columns]
+    amplitudes: dict[Hashable, Any] = field(default_factory=dict, repr=False)
 
     def corrected(self, factors: Mapping[ModeKey, float]) -> TrainedBasis:
         """With the named modes' frequencies multiplied by mesh factors.

@@ -27,7 +27,7 @@ class Columns:
         return [self.cosine] if self.sine is None else [self.cosine, self.sine]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Response:
     """Of one named mode.
 
@@ -36,11 +36,13 @@ class Response:
     shift : change of ln f of the doublet's mean λ.
     split : complex split b_r over the mean λ (`statorhom.modes.doublets.complex_split`).
     other_axial : count of node planes that it may show as well as its own.
+    profile : (heights,) its order's radial motion along the axis; None where nobody asked.
     """
 
     shift: float
     split: complex
     other_axial: int | None = None
+    profile: np.ndarray | None = None
 
 
 def columns_of(basis: SymmetricBasis, space: Harmonic, frequency_hz: float) -> Columns | None:
@@ -56,21 +58,41 @@ def columns_of(basis: SymmetricBasis, space: Harmonic, frequency_hz: float) -> C
     return None
 
 
-def named_response(modes: BrokenModes, place: Columns) -> Response | None:
-    """Response of a named mode; None where it can no longer be told among the broken ones."""
+@dataclass(frozen=True, eq=False)
+class NearestPair:
+    """The broken modes that have most of a named one.
+
+    Parameters
+    ----------
+    modes : (k,) their numbers, by ascending frequency.
+    rotation : (k, k) nearest orthonormal coordinates of the named modes in their plane.
+    """
+
+    modes: np.ndarray
+    rotation: np.ndarray
+
+
+def nearest_pair(modes: BrokenModes, place: Columns) -> NearestPair | None:
+    """Broken modes of a named one; None where it can no longer be told among them."""
     numbers = place.numbers
     parts = modes.participation[numbers]
     weight = np.sum(parts**2, axis=0)
     chosen = np.sort(np.argsort(-weight)[: len(numbers)])
     if len(chosen) < len(numbers) or weight[chosen].min() < LEAST:
         return None
-    values = modes.eigenvalues[chosen]
-    if len(numbers) == 1:
-        return Response(0.5 * float(np.log(values[0] / place.eigenvalue)), 0j)
-    # nearest orthonormal pair in the doublet's plane
     left, _, right = np.linalg.svd(parts[:, chosen])
-    rotation = left @ right
-    effective = rotation @ np.diag(values) @ rotation.T
+    return NearestPair(chosen, left @ right)
+
+
+def named_response(modes: BrokenModes, place: Columns) -> Response | None:
+    """Response of a named mode; None where it can no longer be told among the broken ones."""
+    pair = nearest_pair(modes, place)
+    if pair is None:
+        return None
+    values = modes.eigenvalues[pair.modes]
+    if len(values) == 1:
+        return Response(0.5 * float(np.log(values[0] / place.eigenvalue)), 0j)
+    effective = pair.rotation @ np.diag(values) @ pair.rotation.T
     mean = float(values.mean())
     split = complex(effective[0, 0] - effective[1, 1], 2 * effective[0, 1]) / mean
     return Response(0.5 * float(np.log(mean / place.eigenvalue)), split)
