@@ -11,6 +11,7 @@ import numpy.typing as npt
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.features import Feature
 from statorhom.diagnose.frequency_slopes import by_frequency, slopes_of
+from statorhom.diagnose.graded import graded_constants
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.errors import StatorhomError
 
@@ -47,20 +48,9 @@ def _(h: Hypothesis, z: FloatArray) -> FloatArray:
     start = [base[i] for i in seen]
     known = by_frequency(h, z, told, base)
     nothing = np.zeros(len(base))  # a constant of a step that has no test
-    graded = _graded(h, z)
+    graded = graded_constants(h, z)
     columns = [
         difference(h, z, j, start) if j in graded else known.get(j, nothing)[seen] for j in range(h.constants)
     ]
     columns += [difference(h, z, j, start) for j in range(h.constants, len(z))]
     return np.array(columns).T.reshape(len(start), len(z))
-
-
-def _graded(h: Hypothesis, z: FloatArray) -> set[int]:
-    """Constants of materials whose stiffness varies from place to place: shapes and splits follow them too."""
-    stages = [
-        stage
-        for stage in h.study.stages
-        if any(a.graded and a.touches(stage.name, test.name) for a in h.actions(z) for test in stage.tests)
-    ]
-    owned = {name for stage in stages for name in h.study.constants.owners[stage.setup.index].values()}
-    return {j for j, name in enumerate(h.study.constants.names) if name in owned}
