@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from template_hypothesis import template_hypothesis
 
 from statorhom.diagnose import derivatives
-from statorhom.diagnose.graded import graded_constants
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.stage_model import mesh_error
-from statorhom.physics.effects.stack_pressure_gradient import EFFECT
 
 STEP = 1e-3  # of internal coordinates
 DOUBLET = "frequency_hz,order,axial\n1428,2,0\n1434,2,0\n1766,2,1\n3770,3,0\n6200,0,1\n"
@@ -48,23 +44,6 @@ def test_slopes_are_those_of_moved_constants(hypothesis: Hypothesis) -> None:
     names = paired.study.constants.names
     for name in ("stack:lamination.E_p_pa", "stack:mass_kg", "stack:mesh", "scatter 2 re"):
         assert np.any(found[:, names.index(name)]), name
-
-
-def test_slopes_of_a_graded_stack_are_those_of_moved_constants_too(hypothesis: Hypothesis) -> None:
-    """What varies along it is a part of the fitted E_z and G_rz, not of the reference's."""
-    (candidate,) = EFFECT.candidates(hypothesis.study.files)
-    (ratio,) = candidate.parameters
-    graded = replace(hypothesis, candidates=(candidate,))
-    z = np.r_[np.zeros(hypothesis.constants), ratio.internal(0.15)]
-    paired = graded.paired(z)
-    own = sorted(graded_constants(paired, z))
-    names = [paired.study.constants.names[j] for j in own]
-    assert {"stack:lamination.E_z_pa", "stack:lamination.G_rz_pa"} <= set(names)
-    found = derivatives.jacobian(paired, z)[:, own]
-    expected = np.array([moved(paired, z, unit) for unit in STEP * np.eye(len(z))[own]]).T
-    np.testing.assert_allclose(found, expected, rtol=0.02, atol=5e-3 * np.abs(expected).max())
-    as_reference = derivatives.jacobian(hypothesis.paired(z[:-1]), z[:-1])[:, own]
-    assert np.abs(found - as_reference).max() > 0.05 * np.abs(expected).max()
 
 
 def moved(hypothesis: Hypothesis, z: np.ndarray, change: np.ndarray) -> np.ndarray:

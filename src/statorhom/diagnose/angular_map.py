@@ -111,8 +111,5 @@ def _unit_splits(best: Explanation) -> dict[ModeKey, complex]:
         for stage in r.hypothesis.study.stages:
             here = replace(action, tests=None)
             if here.touches(stage.name):
-                found |= {
-                    k: response.split
-                    for k, response in broken_responses(stage, [here], stage.reference).items()
-                }
+                found |= {k: response.split for k, response in broken_responses(stage, [here]).items()}
     return found

@@ -23,6 +23,7 @@ from statorhom.identify.settings import Settings
 from statorhom.identify.stage_setup import StageSetup, stage_setup
 from statorhom.model.affine import Materials
 from statorhom.physics.declared import declared_effects
+from statorhom.physics.ring import ring_of
 from statorhom.study.study import StudyFiles
 from statorhom.study.study_file import FREE
 
@@ -70,6 +71,7 @@ def baseline(
         If files, masses or tests do not allow it.
     """
     setups = [stage_setup(files, geometry, i) for i in range(len(files.study.stages))]
+    tests = {name: test.on_core(ring_of(files).length) for name, test in tests.items()}
     tested = [s for s in setups if s.tests and s.step is not None]
     if not tested:
         raise IdentificationError(f"{files.path}: no stage has a test; there is nothing to diagnose")

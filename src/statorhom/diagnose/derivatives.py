@@ -11,7 +11,6 @@ import numpy.typing as npt
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.features import Feature
 from statorhom.diagnose.frequency_slopes import by_frequency, slopes_of
-from statorhom.diagnose.graded import graded_constants
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.errors import StatorhomError
 
@@ -48,9 +47,6 @@ def _(h: Hypothesis, z: FloatArray) -> FloatArray:
     start = [base[i] for i in seen]
     known = by_frequency(h, z, told, base)
     nothing = np.zeros(len(base))  # a constant of a step that has no test
-    graded = graded_constants(h, z)
-    columns = [
-        difference(h, z, j, start) if j in graded else known.get(j, nothing)[seen] for j in range(h.constants)
-    ]
+    columns = [known.get(j, nothing)[seen] for j in range(h.constants)]
     columns += [difference(h, z, j, start) for j in range(h.constants, len(z))]
     return np.array(columns).T.reshape(len(start), len(z))

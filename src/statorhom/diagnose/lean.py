@@ -1,9 +1,10 @@
 """How far a mode's radial motion leans to one end of the stator: what differs along the axis mixes axial parities.
 
 A stator that is its own mirror image has shapes that are even or odd about the middle. Stiffness that rises from end to
-end couples (r, 0) with (r, 1), and every shape of the two gets a part of the other parity: its lean, the odd part over
-the even one for n = 0 and the other way round for n = 1, each as a straight line over the measuring planes shows it
-(physics.md §6, stack pressure gradient). Frequencies feel the same in the second order only.
+end, or a mass near one end, couples (r, 0) with (r, 1): the shape of (r, 0) gets an odd part, its lean, which is the
+slope of a straight line over the measuring planes, times half their span, over its mean (physics.md §6, stack pressure
+gradient). Frequencies feel the coupling in the second order only. The even part of (r, 1) tells the same, and as much
+of where the measuring planes really were: it is not used.
 """
 
 from __future__ import annotations
@@ -20,7 +21,6 @@ from statorhom.model.convergence import ModeKey
 from statorhom.study.modal_table import MeasuredMode
 
 FloatArray = npt.NDArray[np.float64]
-COUNTS = (0, 1)  # node planes of which a straight line tells the parities
 # Per order: sensors that stand half a degree off show that much of the other parity. And of the lean itself: it rests
 # on how far apart the two parities' frequencies are.
 OWN, PART = 0.002, 0.2
@@ -34,7 +34,7 @@ def lean_features(
     predicted: Mapping[ModeKey, PredictedMode],
     heights_m: Sequence[float],
 ) -> list[Feature]:
-    """Leans of the named modes whose shapes were measured in several planes.
+    """Leans of the lowest modes (r, 0) whose shapes were measured in several planes; higher ones mix with too much.
 
     Parameters
     ----------
@@ -45,10 +45,10 @@ def lean_features(
     """
     shapes = {s.label: s for s in test.sidebands}
     found = []
-    for key in dict.fromkeys(k for k in keys if k is not None and k[1] in COUNTS):
-        rows = [m for m, k in zip(modes, keys, strict=True) if k == key and m.axial == key[1]]
+    for key in dict.fromkeys(k for k in keys if k is not None and k[1:] == (0, 0)):
+        rows = [m for m, k in zip(modes, keys, strict=True) if k == key and m.axial == 0]
         seen = [s for m in rows if (s := shapes.get(m.label)) is not None and len(s.z_m) > 1]
-        measured = _mean([_measured(s, *key[:2]) for s in seen])
+        measured = _mean([_measured(s, key[0]) for s in seen])
         if measured is None:
             continue
         value, noise = measured
@@ -58,30 +58,27 @@ def lean_features(
             # as many features as with it: a partner that vanishes says nothing of shapes
             found.append(Feature("lean", test.name, key, 0.0, 0.0, 1.0, lost=True))
             continue
-        told = profile_lean(mode.profile, np.array(heights_m), seen[0].z_m, key[1])
+        told = profile_lean(mode.profile, np.array(heights_m), seen[0].z_m)
         found.append(Feature("lean", test.name, key, value, told, sd))
     return found
 
 
-def profile_lean(profile: FloatArray, heights_m: FloatArray, z_m: FloatArray, axial: int) -> float:
+def profile_lean(profile: FloatArray, heights_m: FloatArray, z_m: FloatArray) -> float:
     """Lean of a profile (p,) over heights, as planes at z_m show it."""
-    along = np.interp(np.sort(z_m), heights_m, profile)
-    height = np.sort(z_m) - z_m.min()
-    basis = np.column_stack([np.ones_like(height), 2 * height / np.ptp(z_m) - 1])
-    parts = np.linalg.lstsq(basis, along, rcond=None)[0]
-    return float(parts[1 - axial] / parts[axial])
+    along = np.interp(z_m, heights_m, profile)
+    basis = np.column_stack([np.ones_like(z_m), 2 * (z_m - z_m.min()) / np.ptp(z_m) - 1])
+    mean, slope = np.linalg.lstsq(basis, along, rcond=None)[0]
+    return float(slope / mean)
 
 
-def _measured(shape: Sideband, order: int, axial: int) -> tuple[float, float] | None:
-    """Lean and its standard deviation; None where the shape hardly moves in its own parity."""
+def _measured(shape: Sideband, order: int) -> tuple[float, float] | None:
+    """Lean and its standard deviation; None where the shape is of another order, or too noisy."""
     if shape.order != order:
         return None
-    own, other = (
-        np.array([part[i, order] for part in (shape.cosine, shape.sine)]) for i in (axial, 1 - axial)
-    )
-    size = float(np.linalg.norm(own))
-    sd = float(shape.sd[1 - axial, order]) / size if size > 0 else np.nan
-    return (float(own @ other) / size**2, sd) if sd < MOST_SD else None
+    even, odd = (np.array([part[i, order] for part in (shape.cosine, shape.sine)]) for i in (0, 1))
+    size = float(np.linalg.norm(even))
+    sd = float(shape.sd[1, order]) / size if size > 0 else np.nan
+    return (float(even @ odd) / size**2, sd) if sd < MOST_SD else None
 
 
 def _mean(values: Sequence[tuple[float, float] | None]) -> tuple[float, float] | None:

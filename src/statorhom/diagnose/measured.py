@@ -137,3 +137,20 @@ class MeasuredTest:
             else mode
             for mode in self.modes
         )
+
+    def on_core(self, length_m: float) -> MeasuredTest:
+        """The same with points beyond the ends of a core of this length moved to its ends.
+
+        The drawing may be wrong: that points were measured where it has no core must not keep anybody from finding out.
+        """
+
+        def within(z_m: np.ndarray) -> np.ndarray:
+            return np.clip(z_m, 0.0, length_m)
+
+        shapes = self.shapes
+        return replace(
+            self,
+            shifts=tuple(replace(s, z_m=within(s.z_m)) for s in self.shifts),
+            sidebands=tuple(replace(s, z_m=within(s.z_m)) for s in self.sidebands),
+            shapes=None if shapes is None else replace(shapes, z_m=within(shapes.z_m)),
+        )

@@ -148,7 +148,7 @@ def predicted(
         pairs = zip(actions, mark, strict=True)
         mark = tuple(m for a, m in pairs if a.changes and a.touches(stage.name, test))
     base = _base(stage, materials, here, names)
-    shifts = broken_responses(stage, here, materials, None if mark is None else (test, mark))
+    shifts = broken_responses(stage, here, None if mark is None else (test, mark))
     mesh = values[f"{stage.name}:mesh"]
     own = reference_profiles(stage) if stage.heights_m else {}
     found = {}
@@ -176,22 +176,14 @@ def predicted(
 
 
 def broken_responses(
-    stage: StageModel, actions: Sequence[Action], materials: Materials, mark: Hashable = None
+    stage: StageModel, actions: Sequence[Action], mark: Hashable = None
 ) -> Mapping[ModeKey, Response]:
     """Shifts and splits by all that breaks the symmetry; those of a few marks are kept."""
-    acting = [a for a in actions if a.changes]
-    if not acting:
+    if not any(a.changes for a in actions):
         return {}
     known = stage.kept_responses
-    if mark is not None and any(a.graded for a in acting):
-        mark = mark, material_vector(materials, list(materials)).tobytes()
     if mark is None or mark not in known:
-        changes = [
-            c
-            for a in acting
-            if a.changes
-            for c in a.changes(stage.model.mesh, materials if a.graded else stage.reference)
-        ]
+        changes = [c for a in actions if a.changes for c in a.changes(stage.model.mesh, stage.reference)]
         trainings = [a.training for a in actions if a.training is not None]
         found = responses(stage, changes, trainings) if changes else {}
         if mark is None:

@@ -51,11 +51,11 @@ def sharpened(explanation: Explanation, *, leads: bool = True) -> Explanation:
     found = _sharpened(explanation)
     for _ in range(ROUNDS - 1):
         gained = explanation.refit.objective - found.refit.objective
-        if found.adequacy > ADEQUATE or gained < SETTLED:
+        if found.adequacy_but_one > ADEQUATE or gained < SETTLED:
             break
         explanation, found = found, _sharpened(found)
     found = replace(found, settled=True)
-    if found.adequacy > WELL or not (leads or _keeps_symmetry(found.refit)):
+    if found.adequacy_but_one > WELL or not (leads or _keeps_symmetry(found.refit)):
         return found
     deeper = _on_other_sides(found.refit)
     return found if deeper is found.refit else _sharpened(replace(found, refit=deeper))

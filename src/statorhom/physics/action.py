@@ -113,7 +113,6 @@ class Action:
     proportional : whether dimensions act by the slopes of the frequencies alone.
     materials : from the declared materials of a stage to the true ones.
     changes : from mesh and materials to what breaks the symmetry or varies along the axis.
-    graded : whether changes are parts of the fitted materials' stiffness, and not of the reference's.
     training : what a basis has to hold for these changes beside modes.
     joint : a contact in the place of a bond.
     friction : a contact that slips.
@@ -132,7 +131,6 @@ class Action:
     proportional: bool = False
     materials: MaterialRule | None = None
     changes: ChangeRule | None = None
-    graded: bool = False
     training: Training | None = None
     joint: Joint | None = None
     friction: Friction | None = None

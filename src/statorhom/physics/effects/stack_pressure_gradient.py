@@ -61,8 +61,6 @@ class StackPressureGradient(Effect):
 
         return Action(
             changes=partial(varied, ratio=values["G_rz_end_ratio"]),
-            # what frequencies tell of E_z is little, and what shapes tell is in proportion to it
-            graded=True,
             training=Training(self.name, partial(varied, ratio=TRAINED)),
         )
 
