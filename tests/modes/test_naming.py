@@ -111,7 +111,8 @@ def test_ring_bending_is_visible_by_its_radial_part():
 
 def test_noise_may_hide_the_node_planes_but_not_invent_them():
     assert measured_node_planes([1.0, 0.2, -0.2, 0.3], [0, 1, 2, 3], noise=0.0) == 2
-    assert measured_node_planes([1.0, 0.2, -0.2, 0.35], [0, 1, 2, 3], noise=0.1) == 0
+    assert measured_node_planes([1.0, 0.2, 0.5, 0.35], [0, 1, 2, 3], noise=0.1) == 0
+    assert measured_node_planes([1.0, 0.2, -0.2, 0.35], [0, 1, 2, 3], noise=0.1) is None
     assert measured_node_planes([1.0, 0.2, -0.2, 0.3], [0, 1, 2, 3], noise=0.2) is None
 
 
@@ -135,8 +136,10 @@ def test_bad_input_is_refused(radial, z, message):
             (0.38, -0.03, -0.03, 0.39),
             None,
         ),  # a mode (2, 2) whose middle hardly moves, or (2, 0) between nodes
-        ((0.38, -0.01, -0.01, 0.39), 0),  # as faint as the noise
-        ((0.38, 0.03, 0.03, 0.39), 0),
+        ((0.38, -0.01, -0.01, 0.39), None),  # nodes in both planes
+        ((0.38, 0.03, 0.03, 0.39), None),
+        ((0.38, 0.06, 0.06, 0.39), 0),
+        ((0.38, 0.01, 0.2, 0.39), 0),
         ((0.38, -0.03, 0.03, -0.39), None),
         ((0.38, 0.03, -0.03, -0.39), 1),
     ],

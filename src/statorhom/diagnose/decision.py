@@ -102,7 +102,7 @@ def decide(evidence: Evidence) -> Verdict:
         # one gross row that no effect explains is a slip of whoever measured, or of the extraction
         enough = max(evidence.nothing_adequacy, evidence.nothing_but_one) > ADEQUATE
         return "none" if enough or evidence.by_chance else "unknown"
-    if not evidence.sound or not (evidence.predicts or evidence.undecided):
+    if not evidence.sound or not (evidence.predicts or evidence.evident or evidence.undecided):
         return "unknown" if evidence.nothing_adequacy <= ADEQUATE else "none"
     if not (evidence.predicts or evidence.evident) or not evidence.confirmed:
         return "ambiguous"

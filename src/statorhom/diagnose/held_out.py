@@ -37,7 +37,10 @@ WEIGHT = {
     "density": 0.5,
 }
 
-WHAT = "each mode predicted from fits that did not see it (six folds)"
+WHAT = "each mode of which the two say different things, predicted from fits that did not see it (six folds)"
+DIFFERENT = (
+    0.2  # of the noise, by which two predictions of a mode differ at least where they say different things
+)
 Group = tuple[str, ModeKey | None]
 Part = tuple[Group, bool]  # of a group: its pole shifts, or the rest, whose model is far less certain
 # percent: how far off a mode counts as that a model has not got, which predicts none of that name any nearer
@@ -151,13 +154,14 @@ def _predicted(
         rows |= {part: (before[part], after[part]) for part in before if part in after}
         rows |= {part: (_lacking(e), e) for part, e in after.items() if part[0] in lacking[0]}
         rows |= {part: (e, _lacking(e)) for part, e in before.items() if part[0] in lacking[1]}
-    used = sorted(rows, key=str)
+    apart = [part for part, errors in rows.items() if _differ(*errors)]
+    used = sorted(apart or rows, key=str)
     lone = any(group in lacking[0] | lacking[1] for group, _ in used)
     return HeldOut(
         tuple(group for group, _ in used),
         tuple(rows[g][0].error for g in used),
         tuple(rows[g][1].error for g in used),
-        tuple(float(np.hypot(rows[g][0].noise, max(e.spread for e in rows[g]))) for g in used),
+        tuple(_noise_of(*rows[g]) for g in used),
         f"{WHAT}; one that a model has not got counts as {LACKING} % off" if lone else WHAT,
     )
 
@@ -205,6 +209,16 @@ class _Error:
     error: float
     noise: float
     spread: float
+
+
+def _noise_of(before: _Error, after: _Error) -> float:
+    """What the errors of a part are compared with."""
+    return float(np.hypot(before.noise, max(before.spread, after.spread)))
+
+
+def _differ(before: _Error, after: _Error) -> bool:
+    """Whether two predictions say different things: where they agree, neither can be the better one."""
+    return abs(before.error - after.error) > DIFFERENT * _noise_of(before, after)
 
 
 def _lacking(known: _Error) -> _Error:

@@ -25,6 +25,9 @@ FloatArray = npt.NDArray[np.float64]
 # on how far apart the two parities' frequencies are.
 OWN, PART = 0.002, 0.2
 MOST_SD = 0.05  # shapes that are known no better tell nothing
+# Of half a loss factor: what a roving sensor may move poles by from plane to plane. A shape that is taken at one pole
+# leans by what the others are off.
+MOVED = 0.02
 
 
 def lean_features(
@@ -43,7 +46,7 @@ def lean_features(
     predicted : modes by key.
     heights_m : where predicted profiles were taken (`PredictedMode.profile`).
     """
-    shapes = {s.label: s for s in test.sidebands}
+    shapes = {} if _moves(test) else {s.label: s for s in test.sidebands}
     found = []
     for key in dict.fromkeys(k for k in keys if k is not None and k[1:] == (0, 0)):
         rows = [m for m, k in zip(modes, keys, strict=True) if k == key and m.axial == 0]
@@ -61,6 +64,14 @@ def lean_features(
         told = profile_lean(mode.profile, np.array(heights_m), seen[0].z_m)
         found.append(Feature("lean", test.name, key, value, told, sd))
     return found
+
+
+def _moves(test: MeasuredTest) -> bool:
+    """Whether a sensor moves a test's poles by enough to change shapes."""
+    losses = {m.label: m.loss_factor for m in test.modes}
+    return any(
+        np.ptp(s.shift) > MOVED * 0.5 * loss for s in test.shifts if (loss := losses.get(s.label)) is not None
+    )
 
 
 def profile_lean(profile: FloatArray, heights_m: FloatArray, z_m: FloatArray) -> float:

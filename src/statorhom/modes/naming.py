@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -146,7 +147,8 @@ def measured_node_planes(amplitudes: npt.ArrayLike, z_m: npt.ArrayLike, *, noise
     """Sign changes of an order's amplitude along the axis.
 
     Planes below a tenth of the largest amplitude, or below three times the noise, lie near a node and
-    carry no sign. A plane between the two that would change the count leaves it open.
+    carry no sign. A plane between the two limits that would change the count leaves it open; so do two or more
+    planes near nodes between planes of one sign, for a smooth shape that comes down so far has mostly gone through.
 
     Parameters
     ----------
@@ -158,15 +160,23 @@ def measured_node_planes(amplitudes: npt.ArrayLike, z_m: npt.ArrayLike, *, noise
     Returns
     -------
     int or None
-        None where the node planes cannot be told: fewer than two planes carry a sign, or a faint one matters.
+        None where the node planes cannot be told: fewer than two planes carry a sign, or faint ones matter.
     """
     along = np.asarray(amplitudes, dtype=float)[np.argsort(z_m, kind="stable"), None]
     least = _NOISE_FACTOR * noise
     if seen_planes(along, least).sum() < 2:
         return None
     count = int(node_planes(along, least)[0])
+    if _gone_through(along[:, 0], least):
+        return None
     faint = along[np.abs(along[:, 0]) > least, 0]
     return count if noise == 0.0 or count == np.count_nonzero(np.diff(np.sign(faint))) else None
+
+
+def _gone_through(along: npt.NDArray[np.float64], least: float) -> bool:
+    """Whether two or more neighbouring planes of (planes,) amplitudes lie near nodes between planes of one sign."""
+    places = np.flatnonzero(seen_planes(along[:, None], least)[:, 0])
+    return any(second - first > 2 and along[first] * along[second] > 0 for first, second in pairwise(places))
 
 
 def order_noise(spectrum: OrderSpectrum, order: int) -> float:
