@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose import single_effects as module
-from statorhom.diagnose.refit_starts import CHEAP, MIDDLING
+from statorhom.diagnose.refit_starts import CHEAP, MIDDLING, Start
 from statorhom.diagnose.single_effects import refits
 
 LIMIT = 90.0
@@ -96,3 +97,25 @@ def test_an_effect_that_leaves_more_than_its_absence_is_sought_all_over_the_prio
     # a solution is dear, or the strongest are sought everywhere in any case
     assert sought(monkeypatch, 450.0, price=MIDDLING) == 450.0
     assert sought(monkeypatch, 450.0, far=True) == 450.0
+
+
+@pytest.mark.parametrize(("quick", "found"), [(150.0, 20.0), (170.0, 170.0)])
+def test_a_rival_that_explains_much_is_tried_with_local_fields(
+    monkeypatch: pytest.MonkeyPatch, quick: float, found: float
+) -> None:
+    """A graded stack left 150 without them beside 84 of a wrong name, of 289, and 15 with them."""
+
+    @dataclass(frozen=True)
+    class Trained:
+        trained: bool = True
+
+        def actions(self, _: object) -> list[Any]:
+            return [SimpleNamespace(training="fields", dimensions={})]
+
+    def refit(hypothesis: Trained, *_: object) -> Any:
+        return SimpleNamespace(objective=20.0 if hypothesis.trained else quick, z=None)
+
+    monkeypatch.setattr(module, "refitted", refit)
+    start = Start(Trained(), np.zeros(1))  # type: ignore[arg-type]
+    best: Any = module._rival(start, 90.0, 270.0)
+    assert best.objective == found

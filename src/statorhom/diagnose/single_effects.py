@@ -42,6 +42,7 @@ from statorhom.physics.candidate import Candidate
 MOST = 12  # candidates that are refitted
 RELABELLED = 4
 MOSTLY = 0.5  # of the declared model's objective, below which an explanation leads
+PROMISING = 0.6  # of the same: what explains as much without local fields is tried with them
 NEAR = 60.0  # of the objective: what does not come so near to an adequate explanation is given up
 
 
@@ -144,7 +145,7 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: floa
         if less and not cheap and explained(found[-1], {}).adequacy_but_one > ADEQUATE:
             break
         if np.isfinite(worth):
-            found += _kept(_rival(start, worth))
+            found += _kept(_rival(start, worth, known))
             continue
         for wide in (True, False) if far else (False, True):
             found += _kept(_through(start) if wide else refitted(start.hypothesis, start.z))
@@ -180,12 +181,16 @@ def _objective(found: Refit) -> float:
     return found.objective
 
 
-def _rival(start: Start, worth: float) -> Refit | None:
-    """The nearest optimum; one that is no rival is not sought with local fields, which are dear."""
+def _rival(start: Start, worth: float, known: float) -> Refit | None:
+    """The nearest optimum; one that is no rival is not sought with local fields, which are dear.
+
+    One that explains most of the declared model's objective without them may be a rival with them.
+    """
     hypothesis = start.hypothesis
     if any(action.training or action.dimensions for action in hypothesis.actions(start.z)):
-        quick = refitted(replace(hypothesis, trained=False), start.z, worth)
-        if quick is None or quick.objective > worth:
+        promising = max(worth, PROMISING * known) if np.isfinite(known) else worth
+        quick = refitted(replace(hypothesis, trained=False), start.z, promising)
+        if quick is None or quick.objective > promising:
             return quick
         start = replace(start, z=quick.z)
     return refitted(hypothesis, start.z, worth)
