@@ -25,6 +25,8 @@ FloatArray = npt.NDArray[np.float64]
 # on how far apart the two parities' frequencies are.
 OWN, PART = 0.002, 0.2
 MOST_SD = 0.05  # shapes that are known no better tell nothing
+# Broad resonances show some of their neighbours, and what leans by more than this is no (r, 0) by itself.
+BROAD, MOST_LEAN = 0.03, 0.3
 # Of half a loss factor: what a roving sensor may move poles by from plane to plane. A shape that is taken at one pole
 # leans by what the others are off.
 MOVED = 0.02
@@ -49,10 +51,10 @@ def lean_features(
     shapes = {} if _moves(test) else {s.label: s for s in test.sidebands}
     found = []
     for key in dict.fromkeys(k for k in keys if k is not None and k[1:] == (0, 0)):
-        rows = [m for m, k in zip(modes, keys, strict=True) if k == key and m.axial == 0]
+        rows = [m for m, k in zip(modes, keys, strict=True) if k == key and m.axial == 0 and _is_sharp(m)]
         seen = [s for m in rows if (s := shapes.get(m.label)) is not None and len(s.z_m) > 1]
         measured = _mean([_measured(s, key[0]) for s in seen])
-        if measured is None:
+        if measured is None or abs(measured[0]) > MOST_LEAN:
             continue
         value, noise = measured
         sd = float(np.linalg.norm([noise, OWN * max(1, key[0]), PART * value]))
@@ -72,6 +74,10 @@ def _moves(test: MeasuredTest) -> bool:
     return any(
         np.ptp(s.shift) > MOVED * 0.5 * loss for s in test.shifts if (loss := losses.get(s.label)) is not None
     )
+
+
+def _is_sharp(mode: MeasuredMode) -> bool:
+    return (mode.loss_factor or 0.0) < BROAD
 
 
 def profile_lean(profile: FloatArray, heights_m: FloatArray, z_m: FloatArray) -> float:
