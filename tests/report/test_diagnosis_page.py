@@ -92,6 +92,32 @@ def test_what_to_measure_next_and_what_passed() -> None:
     assert '<span class="warning">no</span>' in unknown and '<span class="good">yes</span>' in unknown
 
 
+def test_of_two_effects_the_second_is_asked_for_by_itself() -> None:
+    told = example_diagnosis("ambiguous")
+    alone = example_details("ambiguous")
+    both = alone.model_copy(update={"second_confirmed": False})
+    asked = "… and better with both effects than with one"
+    assert asked not in words_of(render_html(diagnosis_document(told, alone)))
+    said = words_of(render_html(diagnosis_document(told, both)))
+    assert f"{asked} too few modes show it yes no" in said
+
+
+def test_a_lean_is_told_in_percent() -> None:
+    lean = FeatureRow(
+        stage="stack",
+        test="stack-free",
+        mode=(2, 0),
+        kind="lean",
+        measured=0.0291,
+        before=0.0,
+        after=0.028,
+        sd=0.007,
+    )
+    details = example_details("named").model_copy(update={"features": (lean,)})
+    said = words_of(render_html(diagnosis_document(example_diagnosis("named"), details)))
+    assert "how far the shape leans to one end +2.91 % +0.00 % +2.80 %" in said
+
+
 def test_one_report_holds_identification_and_diagnosis(tmp_path: Path) -> None:
     folder = write_example(tmp_path / "both")
     write_report(folder)

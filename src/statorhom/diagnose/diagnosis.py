@@ -277,6 +277,7 @@ def _details(approach: Approach, files: StudyFiles, found: Found, choice: Choice
         evidence=tuple((x.candidates[0].label, x.log_evidence) for x in found.explanations),
         seconds=seconds,
         simpler=_simpler(found),
+        second_confirmed=e.confirmed if len(best.candidates) > 1 else None,
         options=choice.options,
         **approach.pictures(files, found.base.refit, best, found.verdict == "named", found.verdict != "none"),
         summaries=summaries(tuple(dict.fromkeys(n for x in found.explanations for n in x.effects)), files),

@@ -162,6 +162,9 @@ def _statement(test: str, odd: Sequence[Feature], lost: int) -> str:
         parts.append(f"{len(splits)} doublets are split otherwise than predicted")
     if any(f.kind == "shift" for f in odd):
         parts.append("poles move from measuring plane to measuring plane")
+    leaning = {f.key for f in odd if f.kind == "lean"}
+    if leaning:
+        parts.append(f"{len(leaning)} shapes lean to one end otherwise than predicted")
     shapes = {f.key for f in odd if f.kind == "shape"}
     if shapes:
         parts.append(f"{len(shapes)} shapes are not those of the declared body")

@@ -224,7 +224,7 @@ class SimplerRow(_Part):
 
 
 class Details(_Part):
-    """The numbers behind a diagnosis."""
+    """The numbers behind a diagnosis; `second_confirmed` of two effects, None of others."""
 
     p_value: float
     over_nothing: float
@@ -250,6 +250,7 @@ class Details(_Part):
     refitted: tuple[RefittedRow, ...] = ()
     refit_note: str | None = None
     simpler: SimplerRow | None = None
+    second_confirmed: bool | None = None
 
 
 def write_diagnosis(diagnosis: Diagnosis, details: Details, folder: Path) -> Path:

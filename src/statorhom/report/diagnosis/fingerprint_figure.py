@@ -12,7 +12,13 @@ from statorhom.report.document import Picture, text
 from statorhom.report.figures.canvas import FONT_PT, INK, PREDICTED, SIMULATED, new_figure, safe, svg, tidy
 from statorhom.results.diagnosis import FeatureRow
 
-SHORT = {"frequency": "frequency", "split": "two lines", "shift": "place to place", "damping": "damping"}
+SHORT = {
+    "frequency": "frequency",
+    "split": "two lines",
+    "shift": "place to place",
+    "lean": "lean to one end",
+    "damping": "damping",
+}
 MOST = 24
 MET = 0.1  # what is met so well before and after is left out
 TICKS = (0, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000)

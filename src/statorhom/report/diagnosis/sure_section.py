@@ -114,6 +114,9 @@ def _rules(d: Diagnosis, e: Details) -> Table:
             e.stability >= 0.8,
         ),
     ]
+    if e.second_confirmed is not None:
+        found = "yes" if e.second_confirmed else "too few modes show it"
+        rows.insert(4, ("… and better with both effects than with one", found, "yes", e.second_confirmed))
     head = (
         Column(text("test")),
         Column(text("found"), "right"),

@@ -53,4 +53,6 @@ def _shown(kind: str, value: float) -> str:
         return f"{50 * value:+.3f} %"
     if kind == "shift":
         return f"{100 * value:+.4f} %"
+    if kind == "lean":
+        return f"{100 * value:+.2f} %"
     return f"{value:.4g}"

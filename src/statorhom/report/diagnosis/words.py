@@ -32,6 +32,7 @@ KINDS = {
     "frequency": "frequency",
     "split": "distance and angle of its two lines",
     "shift": "shift from one measuring place to the next",
+    "lean": "how far the shape leans to one end",
     "shape": "shape",
     "damping": "damping",
     "density": "density of the sheets",
