@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose.refit import Refit
-from statorhom.diagnose.scan import Scan, _Constants, rescanned
+from statorhom.diagnose.decision import MAX_T_P
+from statorhom.diagnose.scan import Scan, _Constants, left_over, rescanned
 from statorhom.physics.candidate import Candidate
 
 LUMP, STRIP = Candidate("lump", "stack", ()), Candidate("strip", "stack", ())
@@ -46,3 +47,17 @@ def test_other_partners_leave_the_scan_as_it_was() -> None:
     assert signature is not None
     before = Scan((signature,), 0.5)
     assert rescanned(before, base, refit(-g, np.zeros((2, 1)), np.ones(1), test="other")) is before
+
+
+def test_what_an_explanation_leaves_has_a_chance_of_its_own() -> None:
+    """Another effect is looked for beside an adequate one only where its trace is no accident."""
+    lump, strip = np.eye(4)[0], np.eye(4)[1]
+    free = np.zeros((4, 1))
+    for left, traced in ((6.0, True), (0.5, False)):
+        base = refit(-30.0 * lump - left * strip, free, np.ones(1))
+        away = _Constants(base)
+        found = [s for c, g in ((LUMP, lump), (STRIP, strip)) if (s := away.signature(c, np.empty(0), g))]
+        first = refit(-left * strip, np.column_stack([free, lump]), np.array([1.0, 0.0]))
+        after = left_over(Scan(tuple(found), 1e-4), base, first, 0)
+        assert after.signatures[0].candidate is STRIP
+        assert (after.p_value < MAX_T_P) == traced

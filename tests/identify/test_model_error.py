@@ -31,6 +31,15 @@ def test_modes_that_were_not_computed_take_the_mean_of_their_order_or_of_all():
     assert single.factor((3, 1, 0)) == 0.9
 
 
+def test_a_factor_that_others_stand_in_for_is_as_uncertain_as_they_differ():
+    """Of a stack of 48 slots (2, 0) is corrected by 0.5 %, (2, 2) by 4.3 %: what of (2, 3), which no mesh study had?"""
+    known = ModelError({(2, 0, 0): 0.995, (2, 2, 0): 0.957, (3, 0, 0): 0.987})
+    assert known.borrowed((2, 0, 0)) == 0.0
+    assert known.borrowed((2, 3, 0)) == pytest.approx(0.019)
+    assert known.borrowed((4, 0, 0)) == pytest.approx(np.std([0.995, 0.957, 0.987]))
+    assert ModelError().borrowed((2, 0, 0)) == 0.0
+
+
 def test_uncertainties_follow_the_correction():
     correction = 1000 / 1010 - 1
     assert ERROR.shared((2, 0, 0)) == pytest.approx(np.hypot(SHARED_FLOOR, SHARED_PART * correction))

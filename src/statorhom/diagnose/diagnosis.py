@@ -15,6 +15,7 @@ from statorhom.diagnose.baseline import Baseline
 from statorhom.diagnose.coupons.body_approach import BODY
 from statorhom.diagnose.decision import (
     FAR_OVER_OTHERS,
+    MAX_T_P,
     Evidence,
     Verdict,
     decide,
@@ -46,7 +47,7 @@ from statorhom.diagnose.report_rows import (
     mismatch,
 )
 from statorhom.diagnose.resampling import stability
-from statorhom.diagnose.scan import Scan, rescanned
+from statorhom.diagnose.scan import Scan, left_over
 from statorhom.diagnose.second_effects import second_effects
 from statorhom.diagnose.simpler import by_criterion, simpler_fits
 from statorhom.geometry.tested_object import ObjectGeometry, RingGeometry
@@ -131,9 +132,8 @@ def _find(
     if leading.misfit_is_real:
         if found and _is_open(found):
             found = approach.refined(found, leading.base.valleys, counts)
-        # one gross error asks for no second effect
-        if found and found[0].adequacy_but_one < ADEQUATE:
-            pairs, confirmed = _pairs(leading, found, counts)
+        if found:
+            pairs, confirmed = _pairs(leading, found, counts, settings.seed)
             found = pairs + found
         found = without_gross_rows(leading.base.free, found, counts)
     progress(1)
@@ -159,20 +159,25 @@ def _is_open(found: Sequence[Explanation]) -> bool:
 
 
 def _pairs(
-    leading: Leading, found: Sequence[Explanation], counts: dict[str, int]
+    leading: Leading, found: Sequence[Explanation], counts: dict[str, int], seed: int
 ) -> tuple[list[Explanation], bool]:
     """The best explanation with one more effect, the best first, and whether modes that it did not see confirm that.
 
-    None where these contradict.
+    None where these contradict; nor where the first alone leaves no more than noise, or one gross error, and what it
+    leaves is no trace of a second one, or they do not confirm it.
     """
     first = found[0]
-    pairs = second_effects(first, rescanned(leading.scan, leading.base.free, first.refit), counts)
+    enough = first.adequacy_but_one >= ADEQUATE
+    left = left_over(leading.scan, leading.base.free, first.refit, seed)
+    if enough and left.p_value >= MAX_T_P:
+        return [], True
+    pairs = second_effects(first, left, counts)
     if not pairs:
         return [], True
     # both effects have to hold: the second one against the first alone
     unseen = held_out(first.refit, pairs[0])
     confirmed = unseen.falls and not unseen.worsens
-    return (pairs, confirmed) if confirmed or too_few(unseen) else ([], True)
+    return (pairs, confirmed) if confirmed or (too_few(unseen) and not enough) else ([], True)
 
 
 def _evidence(
@@ -209,7 +214,9 @@ def _diagnosis(approach: Approach, files: StudyFiles, found: Found, choice: Choi
     after = best.refit if found.verdict in ("named", "ambiguous") else base
     unseen = found.evidence.held_out
     rest = [
-        Alternative(effect=e, probability=p) for e, p in chances.items() if e not in best.effects or not named
+        Alternative(effect=e, probability=p)
+        for e, p in chances.items()
+        if e != "+".join(best.effects) or not named
     ]
     ambiguous = found.verdict == "ambiguous"
     several = [a for a in rest if a.effect != "none"]

@@ -188,7 +188,8 @@ def with_rows(found: Sequence[Feature], modes: Sequence[MeasuredMode], keys: Key
 def own_sd(error: ModelError, key: ModeKey) -> float:
     """Relative model error of a mode that others do not share: what of the mesh's is not in their common pattern."""
     correction = error.factor(key) - 1.0
-    return float(np.linalg.norm([OWN, OWN_PART * correction, OWN_SQUARE * correction**2]))
+    parts = [OWN, OWN_PART * correction, OWN_SQUARE * correction**2, error.borrowed(key)]
+    return float(np.linalg.norm(parts))
 
 
 def measured_sd(mode: MeasuredMode) -> float:

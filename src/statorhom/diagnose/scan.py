@@ -95,11 +95,11 @@ class Scan:
 
 
 def scan(base: Refit, candidates: Sequence[Candidate], seed: int) -> Scan:
-    """Signatures of all candidates at the declared model's optimum.
+    """Signatures of all candidates at an optimum.
 
     Parameters
     ----------
-    base : the declared model.
+    base : the declared model, or an explanation that another effect may be added to.
     candidates : with parameters; discrete ones change the pairing and are tried by refits alone.
     seed : of the draws.
     """
@@ -124,12 +124,26 @@ def rescanned(before: Scan, base: Refit, first: Refit) -> Scan:
     before, base : the scan and the optimum that it was made at.
     first : the explanation.
     """
-    rows = [[(f.kind, f.test, f.key) for f in r.hypothesis.features(r.z)] for r in (base, first)]
-    if rows[0] != rows[1]:
+    if _rows(base) != _rows(first):
         return before
     away = _Constants(first)
     again = (away.signature(s.candidate, s.start, s.whole) for s in before.signatures)
     return Scan(tuple(sorted((s for s in again if s is not None), key=lambda s: -s.gain)), before.p_value)
+
+
+def left_over(before: Scan, base: Refit, first: Refit, seed: int) -> Scan:
+    """The same, with the chance of its largest gain if the explanation leaves nothing; anew with other partners."""
+    if _rows(base) == _rows(first):
+        again = rescanned(before, base, first)
+        return replace(again, p_value=_p_value(again.signatures, _Constants(first).q, seed))
+    candidates = {s.candidate.label: s.candidate for s in before.signatures}
+    others = [c for c in candidates.values() if c.label not in {x.label for x in first.hypothesis.candidates}]
+    return scan(first, others, seed)
+
+
+def _rows(r: Refit) -> list[tuple[str, str, object]]:
+    """What the features are of."""
+    return [(f.kind, f.test, f.key) for f in r.hypothesis.features(r.z)]
 
 
 class _Constants:
@@ -193,9 +207,9 @@ def _choices(study: ModelledStudy, parameter: EffectParameter) -> list[float]:
 
 def _change(base: Refit, candidate: Candidate, start: FloatArray) -> FloatArray | None:
     """Residuals with the effect minus those without, pairing held; None where no body has the effect."""
-    hypothesis = base.hypothesis
     # a signature's direction needs no local fields
-    acted = replace(hypothesis, candidates=(candidate,), trained=False)
+    hypothesis = replace(base.hypothesis, trained=False)
+    acted = replace(hypothesis, candidates=(*hypothesis.candidates, candidate))
     try:
         with_effect = acted.features(np.r_[base.z, start])
     except (StatorhomError, KeyError):

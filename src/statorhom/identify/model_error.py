@@ -48,6 +48,10 @@ class ModelError:
         """Mesh factor of a mode."""
         return _nearest(self.factors, key, 1.0)
 
+    def borrowed(self, key: ModeKey) -> float:
+        """Relative standard deviation of a mesh factor that others stand in for; 0 of a mode with its own."""
+        return 0.0 if key in self.factors else float(np.std(_alike(self.factors, key) or [0.0]))
+
     def effect(self, key: ModeKey) -> float:
         """Factor of the declared effects on the middle of a mode's lines."""
         shifts = {k: response.shift for k, response in self.effects.items()}
@@ -83,5 +87,10 @@ def _nearest(table: Mapping[ModeKey, float], key: ModeKey, default: float) -> fl
     """Entry of a mode; of one that was not computed, the mean of its order's or of all."""
     if key in table:
         return table[key]
-    same = [value for k, value in table.items() if k[0] == key[0]] or list(table.values())
+    same = _alike(table, key)
     return sum(same) / len(same) if same else default
+
+
+def _alike(table: Mapping[ModeKey, float], key: ModeKey) -> list[float]:
+    """Entries of a mode's order, or of all."""
+    return [value for k, value in table.items() if k[0] == key[0]] or list(table.values())
