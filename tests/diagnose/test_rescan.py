@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.decision import MAX_T_P
+from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.scan import Scan, _Constants, left_over, rescanned
 from statorhom.physics.candidate import Candidate
 
