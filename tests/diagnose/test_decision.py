@@ -100,7 +100,9 @@ def test_few_modes_and_evidence_far_ahead_name() -> None:
     seen = replace(GOOD, held_out=replace(BETTER, noise=(0.9,) * 6))
     assert not seen.predicts
     assert decide(seen) == "named"
-    assert decide(replace(seen, over_others=9.0)) == "ambiguous"
+    assert decide(replace(seen, over_others=4.9)) == "ambiguous"
+    # a roving sensor that moves one mode alone, and nothing else that explains anything
+    assert decide(replace(seen, over_others=float("inf"))) == "named"
     assert decide(replace(seen, over_nothing=19.0)) == "ambiguous"
 
 

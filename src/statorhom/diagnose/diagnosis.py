@@ -14,8 +14,8 @@ from statorhom.diagnose.approach import RING, Approach
 from statorhom.diagnose.baseline import Baseline
 from statorhom.diagnose.coupons.body_approach import BODY
 from statorhom.diagnose.decision import (
-    FAR_OVER_OTHERS,
     MAX_T_P,
+    NEAR_RIVAL,
     Evidence,
     Verdict,
     decide,
@@ -154,7 +154,7 @@ def _is_open(found: Sequence[Explanation]) -> bool:
     """
     first, rest = found[0], others(found[0], found)
     return first.adequacy_but_one < WELL or (
-        bool(rest) and rest[0].log_evidence > first.log_evidence - FAR_OVER_OTHERS
+        bool(rest) and rest[0].log_evidence > first.log_evidence - NEAR_RIVAL
     )
 
 

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from statorhom.diagnose.decision import FAR_OVER_OTHERS
+from statorhom.diagnose.decision import NEAR_RIVAL
 from statorhom.diagnose.explanations import (
     ADEQUATE,
     WELL,
@@ -101,7 +101,7 @@ def refined(
     if not explanations:
         return []
     adequate = explanations[0].adequacy_but_one > ADEQUATE
-    least = explanations[0].log_evidence - (FAR_OVER_OTHERS if adequate else BEHIND)
+    least = explanations[0].log_evidence - (NEAR_RIVAL if adequate else BEHIND)
 
     def better(e: Explanation) -> Explanation:
         leads = e is explanations[0]
