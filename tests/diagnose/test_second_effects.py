@@ -11,7 +11,7 @@ import pytest
 from statorhom.diagnose import second_effects as module
 from statorhom.diagnose.explanations import PAIR_GAIN, Explanation
 from statorhom.diagnose.scan import Scan, Signature
-from statorhom.diagnose.second_effects import SECONDS, second_effects
+from statorhom.diagnose.second_effects import SECONDS, may_be_added, second_effects
 
 
 def signature(effect: str, gain: float, *, repeats: bool = False, place: str = "") -> Signature:
@@ -42,7 +42,7 @@ def tried(
 
     monkeypatch.setattr(module, "in_order", in_order)
     monkeypatch.setattr(module, "refits", refits)
-    found = second_effects(one, scan, {})
+    found = second_effects(one, may_be_added(one, scan), {})
     return seen["favourites"], seen["limit"], found
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from statorhom.diagnose.order_profiles import broken_profiles
+from statorhom.diagnose.order_profiles import broken_profile
 from statorhom.diagnose.shown_nodes import shown_nodes
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.model.broken.change import Change
-from statorhom.model.broken.named_response import Response, named_response
+from statorhom.model.broken.named_response import Response, nearest_pair, response_of
 from statorhom.model.broken.solve import solve_broken
 from statorhom.model.convergence import ModeKey
 from statorhom.physics.action import Training
@@ -30,10 +30,11 @@ def responses(
     trained = stage.trained(trainings)
     modes = solve_broken(trained.basis, changes, tolerance=None)
     shown = shown_nodes(modes, trained.columns, stage.reference_keys)
-    profiles = broken_profiles(stage, trained, modes) if stage.heights_m else {}
-    found = {key: named_response(modes, place) for key, place in trained.columns.items()}
-    return {
-        key: replace(response, other_axial=shown.get(key), profile=profiles.get(key))
-        for key, response in found.items()
-        if response is not None
-    }
+    found = {}
+    for key, place in trained.columns.items():
+        pair = nearest_pair(modes, place)
+        if pair is not None:
+            profile = broken_profile(stage, trained, modes, key, pair) if stage.heights_m else None
+            response = response_of(modes, place, pair)
+            found[key] = replace(response, other_axial=shown.get(key), profile=profile)
+    return found

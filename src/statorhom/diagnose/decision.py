@@ -17,9 +17,7 @@ OVER_NOTHING, OVER_OTHERS = 5.0, 3.0  # of log evidence
 # The same where something else speaks against it: the declared model misses nothing by more than chance, or too few
 # modes show the effect for held-out ones to confirm it.
 FAR_OVER_NOTHING, FAR_OVER_OTHERS = 20.0, 5.0
-NEAR_RIVAL = (
-    10.0  # of log evidence, up to which another one is so near that each is compared in a model of its own
-)
+NEAR_RIVAL = 10.0  # of log evidence: up to which a rival and the best are compared in models of their own
 AS_IT_SHOULD = 0.1  # chance of the declared model's misfit from which on there is nothing to explain
 STABLE = 0.8
 FEW = 4  # modes that show an effect, below which held-out modes cannot decide

@@ -48,7 +48,7 @@ from statorhom.diagnose.report_rows import (
 )
 from statorhom.diagnose.resampling import stability
 from statorhom.diagnose.scan import Scan, left_over
-from statorhom.diagnose.second_effects import second_effects
+from statorhom.diagnose.second_effects import may_be_added, second_effects
 from statorhom.diagnose.simpler import by_criterion, simpler_fits
 from statorhom.geometry.tested_object import ObjectGeometry, RingGeometry
 from statorhom.identify.announce import Announce, silent
@@ -168,7 +168,7 @@ def _pairs(
     """
     first = found[0]
     enough = first.adequacy_but_one >= ADEQUATE
-    left = left_over(leading.scan, leading.base.free, first.refit, seed)
+    left = left_over(may_be_added(first, leading.scan), leading.base.free, first.refit, seed)
     if enough and left.p_value >= MAX_T_P:
         return [], True
     pairs = second_effects(first, left, counts)

@@ -38,9 +38,7 @@ WEIGHT = {
 }
 
 WHAT = "each mode of which the two say different things, predicted from fits that did not see it (six folds)"
-DIFFERENT = (
-    0.2  # of the noise, by which two predictions of a mode differ at least where they say different things
-)
+DIFFERENT = 0.2  # of the noise: by how much errors differ at least where two models say different things
 Group = tuple[str, ModeKey | None]
 Part = tuple[Group, bool]  # of a group: its pole shifts, or the rest, whose model is far less certain
 # percent: how far off a mode counts as that a model has not got, which predicts none of that name any nearer

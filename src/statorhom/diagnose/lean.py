@@ -52,7 +52,7 @@ def lean_features(
     found = []
     for key in dict.fromkeys(k for k in keys if k is not None and k[1:] == (0, 0)):
         rows = [m for m, k in zip(modes, keys, strict=True) if k == key and m.axial == 0 and _is_sharp(m)]
-        seen = [s for m in rows if (s := shapes.get(m.label)) is not None and len(s.z_m) > 1]
+        seen = [s for m in rows if (s := shapes.get(m.label)) is not None and np.ptp(s.z_m) > 0]
         measured = _mean([_measured(s, key[0]) for s in seen])
         if measured is None or abs(measured[0]) > MOST_LEAN:
             continue

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.trained_basis import TrainedBasis
-from statorhom.model.broken.named_response import nearest_pair
+from statorhom.model.broken.named_response import NearestPair
 from statorhom.model.broken.solve import BrokenModes
 from statorhom.model.convergence import ModeKey
 from statorhom.model.radial_profile import radial_profile
@@ -33,39 +33,36 @@ def reference_profiles(stage: StageModel) -> Mapping[ModeKey, FloatArray]:
     return known
 
 
-def broken_profiles(
-    stage: StageModel, trained: TrainedBasis, modes: BrokenModes
-) -> dict[ModeKey, FloatArray]:
-    """Profiles (heights,) of the named modes of the broken stator, the mean of a doublet's two.
+def broken_profile(
+    stage: StageModel, trained: TrainedBasis, modes: BrokenModes, key: ModeKey, pair: NearestPair
+) -> FloatArray:
+    """Profile (heights,) of a named mode of the broken stator, the mean of a doublet's two.
 
     Parameters
     ----------
-    trained : the basis in which they were solved.
+    trained : the basis in which the modes were solved.
+    pair : which of them are the named one.
     """
-    found = {}
-    for key, place in trained.columns.items():
-        pair = nearest_pair(modes, place)
-        if pair is not None:
-            families = _amplitudes(stage, trained, key[0])[: len(place.numbers)]
-            turned = modes.participation[:, pair.modes] @ pair.rotation.T
-            found[key] = np.mean([along @ turned[:, i] for i, along in enumerate(families)], axis=0)
-    return found
+    cosine, sine = _amplitudes(stage, trained, key[0])
+    # a single mode has one family, whichever it is
+    families = (cosine, sine) if len(pair.modes) == 2 else (cosine + sine,)
+    turned = modes.participation[:, pair.modes] @ pair.rotation.T
+    return np.asarray(np.mean([along @ turned[:, i] for i, along in enumerate(families)], axis=0))
 
 
-def _amplitudes(stage: StageModel, trained: TrainedBasis, order: int) -> tuple[FloatArray, ...]:
+def _amplitudes(stage: StageModel, trained: TrainedBasis, order: int) -> tuple[FloatArray, FloatArray]:
     """Amplitudes (heights, coordinates) of an order by a unit of every coordinate: cosine family, sine family."""
     place = (stage.heights_m, order)
     if place not in trained.amplitudes:
         basis = trained.basis
         profile = radial_profile(stage.model.mesh, np.array(stage.heights_m))
-        found = [np.zeros((len(stage.heights_m), len(basis.values))) for _ in range(2)]
+        cosine, sine = (np.zeros((len(stage.heights_m), len(basis.values))) for _ in range(2))
         for problem, families in zip(basis.problems, basis.places, strict=True):
             space = problem.sector.space
             if space.order == order:
                 along = profile.orders(space, space.expand(problem.vectors))
-                for sine, own in families.items():
-                    found[sine][:, own] = along
-        # a single mode has one family, whichever it is
-        trained.amplitudes[place] = tuple(found) if order else (found[0] + found[1],)
-    known: tuple[FloatArray, ...] = trained.amplitudes[place]
+                for is_sine, own in families.items():
+                    (sine if is_sine else cosine)[:, own] = along
+        trained.amplitudes[place] = cosine, sine
+    known: tuple[FloatArray, FloatArray] = trained.amplitudes[place]
     return known

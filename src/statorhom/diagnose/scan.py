@@ -137,8 +137,7 @@ def left_over(before: Scan, base: Refit, first: Refit, seed: int) -> Scan:
         again = rescanned(before, base, first)
         return replace(again, p_value=_p_value(again.signatures, _Constants(first).q, seed))
     candidates = {s.candidate.label: s.candidate for s in before.signatures}
-    others = [c for c in candidates.values() if c.label not in {x.label for x in first.hypothesis.candidates}]
-    return scan(first, others, seed)
+    return scan(first, list(candidates.values()), seed)
 
 
 def _rows(r: Refit) -> list[tuple[str, str, object]]:

@@ -12,17 +12,21 @@ from statorhom.diagnose.single_effects import refits
 SECONDS = 5  # effects that are tried beside the first
 
 
+def may_be_added(first: Explanation, scan: Scan) -> Scan:
+    """What of a scan is no effect that the explanation has already, but for those that may stand twice."""
+    others = [s for s in scan.signatures if s.candidate.repeats or s.candidate.effect not in first.effects]
+    return replace(scan, signatures=tuple(others))
+
+
 def second_effects(first: Explanation, left: Scan, counts: dict[str, int]) -> list[Explanation]:
     """The first explanation and one more effect, where that adds enough; the best first.
 
     Parameters
     ----------
     first : the best single effect.
-    left : what effects would take away of the misfit that it leaves.
+    left : what effects that may be added would take away of the misfit that it leaves.
     counts : effect → number of its candidates, over which its prior is spread.
     """
-    others = [s for s in left.signatures if s.candidate.repeats or s.candidate.effect not in first.effects]
-    left = replace(left, signatures=tuple(others))
     favourites = left.worth_refitting(SECONDS, WORTH)[:SECONDS]
     base = first.refit
     found = refits(base, in_order(base, left, favourites), counts, base.objective - 2 * PAIR_GAIN)

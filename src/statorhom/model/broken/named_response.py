@@ -87,8 +87,11 @@ def nearest_pair(modes: BrokenModes, place: Columns) -> NearestPair | None:
 def named_response(modes: BrokenModes, place: Columns) -> Response | None:
     """Response of a named mode; None where it can no longer be told among the broken ones."""
     pair = nearest_pair(modes, place)
-    if pair is None:
-        return None
+    return None if pair is None else response_of(modes, place, pair)
+
+
+def response_of(modes: BrokenModes, place: Columns, pair: NearestPair) -> Response:
+    """Response of a named mode whose broken modes are known."""
     values = modes.eigenvalues[pair.modes]
     if len(values) == 1:
         return Response(0.5 * float(np.log(values[0] / place.eigenvalue)), 0j)
