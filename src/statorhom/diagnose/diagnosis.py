@@ -16,6 +16,7 @@ from statorhom.diagnose.coupons.body_approach import BODY
 from statorhom.diagnose.decision import (
     MAX_T_P,
     NEAR_RIVAL,
+    OVER_NOTHING,
     Evidence,
     Verdict,
     decide,
@@ -163,11 +164,13 @@ def _pairs(
 ) -> tuple[list[Explanation], bool]:
     """The best explanation with one more effect, the best first, and whether modes that it did not see confirm that.
 
-    None where these contradict; nor where the first alone leaves no more than noise, or one gross error, and what it
-    leaves is no trace of a second one, or they do not confirm it.
+    None where these contradict; nor where the first alone leaves no more than noise, or one gross error, and is hardly
+    better than nothing, what it leaves is no trace of a second one, or they do not confirm it.
     """
     first = found[0]
     enough = first.adequacy_but_one >= ADEQUATE
+    if enough and first.log_evidence - nothing(leading.base.refit).log_evidence < OVER_NOTHING:
+        return [], True
     left = left_over(may_be_added(first, leading.scan), leading.base.free, first.refit, seed)
     if enough and left.p_value >= MAX_T_P:
         return [], True
