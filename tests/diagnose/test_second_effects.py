@@ -67,3 +67,47 @@ def test_a_second_effect_has_to_add_evidence(monkeypatch: pytest.MonkeyPatch) ->
     scan = Scan((signature("ovality", 50.0),), 0.0)
     found = tried(monkeypatch, first(200.0), scan, (PAIR_GAIN - 1, PAIR_GAIN + 1, PAIR_GAIN + 9))[2]
     assert [e.log_evidence for e in found] == [-50.0 + PAIR_GAIN + 9, -50.0 + PAIR_GAIN + 1]
+
+
+def found_beside(
+    monkeypatch: pytest.MonkeyPatch,
+    *,
+    adequacy: float = 0.5,
+    over_nothing: float = 60.0,
+    left_p: float = 1e-3,
+    confirms: bool = True,
+    few: bool = False,
+) -> tuple[int, bool]:
+    """How many pairs stand beside a lump, and whether held-out modes confirm them."""
+    lump = SimpleNamespace(
+        effects=("attached_mass",), adequacy_but_one=adequacy, log_evidence=over_nothing, refit=None
+    )
+    held = SimpleNamespace(falls=confirms, worsens=False)
+    monkeypatch.setattr(module, "nothing", lambda _: SimpleNamespace(log_evidence=0.0))
+    monkeypatch.setattr(module, "left_over", lambda *_: SimpleNamespace(p_value=left_p))
+    monkeypatch.setattr(module, "second_effects", lambda *_: [SimpleNamespace(refit=None)])
+    monkeypatch.setattr(module, "held_out", lambda *_: held)
+    monkeypatch.setattr(module, "too_few", lambda _: few)
+    base = SimpleNamespace(refit=None, free=None)
+    leading: Any = SimpleNamespace(base=base, scan=Scan((), 1e-4))
+    pairs, confirmed = module.confirmed_pairs(leading, lump, {}, 0)  # type: ignore[arg-type]
+    return len(pairs), confirmed
+
+
+def test_beside_an_adequate_explanation_a_trace_that_is_no_accident_is_followed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert found_beside(monkeypatch) == (1, True)
+    assert found_beside(monkeypatch, left_p=0.2) == (0, True)
+    # hardly better than nothing: what would a second effect stand beside?
+    assert found_beside(monkeypatch, over_nothing=1.0) == (0, True)
+    # the first alone is named where modes do not confirm the second, or are too few
+    assert found_beside(monkeypatch, confirms=False) == (0, True)
+    assert found_beside(monkeypatch, confirms=False, few=True) == (0, True)
+
+
+def test_what_one_effect_leaves_open_asks_for_a_second(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert found_beside(monkeypatch, adequacy=1e-6, left_p=0.2) == (1, True)
+    assert found_beside(monkeypatch, adequacy=1e-6, confirms=False) == (0, True)
+    # too few modes to confirm it: told, and not named
+    assert found_beside(monkeypatch, adequacy=1e-6, confirms=False, few=True) == (1, False)

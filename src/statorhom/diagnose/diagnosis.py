@@ -14,18 +14,14 @@ from statorhom.diagnose.approach import RING, Approach
 from statorhom.diagnose.baseline import Baseline
 from statorhom.diagnose.coupons.body_approach import BODY
 from statorhom.diagnose.decision import (
-    MAX_T_P,
     NEAR_RIVAL,
-    OVER_NOTHING,
     Evidence,
     Verdict,
     decide,
     others,
-    too_few,
     within_bounds,
 )
 from statorhom.diagnose.explanations import (
-    ADEQUATE,
     WELL,
     Explanation,
     effect_evidence,
@@ -48,8 +44,8 @@ from statorhom.diagnose.report_rows import (
     mismatch,
 )
 from statorhom.diagnose.resampling import stability
-from statorhom.diagnose.scan import Scan, left_over
-from statorhom.diagnose.second_effects import may_be_added, second_effects
+from statorhom.diagnose.scan import Scan
+from statorhom.diagnose.second_effects import confirmed_pairs
 from statorhom.diagnose.simpler import by_criterion, simpler_fits
 from statorhom.geometry.tested_object import ObjectGeometry, RingGeometry
 from statorhom.identify.announce import Announce, silent
@@ -134,7 +130,7 @@ def _find(
         if found and _is_open(found):
             found = approach.refined(found, leading.base.valleys, counts)
         if found:
-            pairs, confirmed = _pairs(leading, found, counts, settings.seed)
+            pairs, confirmed = confirmed_pairs(leading, found[0], counts, settings.seed)
             found = pairs + found
         found = without_gross_rows(leading.base.free, found, counts)
     progress(1)
@@ -157,30 +153,6 @@ def _is_open(found: Sequence[Explanation]) -> bool:
     return first.adequacy_but_one < WELL or (
         bool(rest) and rest[0].log_evidence > first.log_evidence - NEAR_RIVAL
     )
-
-
-def _pairs(
-    leading: Leading, found: Sequence[Explanation], counts: dict[str, int], seed: int
-) -> tuple[list[Explanation], bool]:
-    """The best explanation with one more effect, the best first, and whether modes that it did not see confirm that.
-
-    None where these contradict; nor where the first alone leaves no more than noise, or one gross error, and is hardly
-    better than nothing, what it leaves is no trace of a second one, or they do not confirm it.
-    """
-    first = found[0]
-    enough = first.adequacy_but_one >= ADEQUATE
-    if enough and first.log_evidence - nothing(leading.base.refit).log_evidence < OVER_NOTHING:
-        return [], True
-    left = left_over(may_be_added(first, leading.scan), leading.base.free, first.refit, seed)
-    if enough and left.p_value >= MAX_T_P:
-        return [], True
-    pairs = second_effects(first, left, counts)
-    if not pairs:
-        return [], True
-    # both effects have to hold: the second one against the first alone
-    unseen = held_out(first.refit, pairs[0])
-    confirmed = unseen.falls and not unseen.worsens
-    return (pairs, confirmed) if confirmed or (too_few(unseen) and not enough) else ([], True)
 
 
 def _evidence(

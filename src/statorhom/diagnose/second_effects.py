@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from statorhom.diagnose.explanations import PAIR_GAIN, Explanation
+from statorhom.diagnose.decision import MAX_T_P, OVER_NOTHING, too_few
+from statorhom.diagnose.explanations import ADEQUATE, PAIR_GAIN, Explanation, nothing
+from statorhom.diagnose.held_out import held_out
+from statorhom.diagnose.leading_effects import Leading
 from statorhom.diagnose.refit_starts import WORTH, in_order
-from statorhom.diagnose.scan import Scan
+from statorhom.diagnose.scan import Scan, left_over
 from statorhom.diagnose.single_effects import refits
 
 SECONDS = 5  # effects that are tried beside the first
@@ -32,3 +35,31 @@ def second_effects(first: Explanation, left: Scan, counts: dict[str, int]) -> li
     found = refits(base, in_order(base, left, favourites), counts, base.objective - 2 * PAIR_GAIN)
     enough = [e for e in found if e.log_evidence > first.log_evidence + PAIR_GAIN]
     return sorted(enough, key=lambda e: -e.log_evidence)
+
+
+def confirmed_pairs(
+    leading: Leading, first: Explanation, counts: dict[str, int], seed: int
+) -> tuple[list[Explanation], bool]:
+    """An explanation with one more effect, the best first, and whether modes that it did not see confirm that.
+
+    None where these contradict; nor where the first alone leaves no more than noise, or one gross error, and is hardly
+    better than nothing, what it leaves is no trace of a second one, or they do not confirm it.
+
+    Parameters
+    ----------
+    leading, first : the single effects, and the best of them.
+    counts, seed : as for `leading_effects`.
+    """
+    enough = first.adequacy_but_one >= ADEQUATE
+    if enough and first.log_evidence - nothing(leading.base.refit).log_evidence < OVER_NOTHING:
+        return [], True
+    left = left_over(may_be_added(first, leading.scan), leading.base.free, first.refit, seed)
+    if enough and left.p_value >= MAX_T_P:
+        return [], True
+    pairs = second_effects(first, left, counts)
+    if not pairs:
+        return [], True
+    # both effects have to hold: the second one against the first alone
+    unseen = held_out(first.refit, pairs[0])
+    confirmed = unseen.falls and not unseen.worsens
+    return (pairs, confirmed) if confirmed or (too_few(unseen) and not enough) else ([], True)
