@@ -2,22 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from statorhom.diagnose import scan as module
 from statorhom.diagnose.decision import MAX_T_P
 from statorhom.diagnose.refit import Refit
-from statorhom.diagnose.scan import Scan, _Constants, left_over, rescanned
+from statorhom.diagnose.scan import Scan, _Constants, left_over
 from statorhom.physics.candidate import Candidate
 
 LUMP, STRIP = Candidate("lump", "stack", ()), Candidate("strip", "stack", ())
 
 
-def refit(residuals: np.ndarray, jacobian: np.ndarray, weights: np.ndarray, test: str = "t") -> Refit:
-    """At its optimum, so that residuals and coordinates are what they are."""
-    rows = [SimpleNamespace(kind="frequency", test=test, key=(r, 0, 0)) for r in range(len(residuals))]
+def refit(
+    residuals: np.ndarray,
+    jacobian: np.ndarray,
+    weights: np.ndarray,
+    test: str = "t",
+    names: Sequence[int] | None = None,
+) -> Refit:
+    """At its optimum, so that residuals and coordinates are what they are; `names`: orders of its modes."""
+    orders = range(len(residuals)) if names is None else names
+    rows = [SimpleNamespace(kind="frequency", test=test, key=(r, 0, 0)) for r in orders]
     hypothesis = SimpleNamespace(
         prior_weights=weights, missed=0.0, residuals=lambda _: residuals, features=lambda _: rows
     )
@@ -34,19 +43,33 @@ def test_a_second_effect_gains_what_the_first_one_left() -> None:
     before = Scan(tuple(sorted(found, key=lambda s: -s.gain)), 0.001)
     assert before.signatures[0].candidate is LUMP
     first = refit(-3.0 * strip, np.column_stack([free, lump]), np.array([1.0, 0.0]))
-    after = rescanned(before, base, first)
+    after = left_over(before, base, first, 0)
     assert [s.candidate for s in after.signatures] == [STRIP]  # the lump's own is taken up whole
     across = strip - lump * (lump @ strip) / (lump @ lump)
     assert after.signatures[0].gain == pytest.approx((3.0 * across @ strip) ** 2 / (across @ across))
 
 
-def test_other_partners_leave_the_scan_as_it_was() -> None:
+def test_features_that_an_explanation_alone_has_are_left_out() -> None:
+    """It has another partner for one mode of three: the signature stays on the two that both have."""
+    g = np.array([1.0, 1.0, 5.0])
+    free = np.zeros((3, 1))
+    base = refit(-g, free, np.ones(1))
+    signature = _Constants(base).signature(LUMP, np.empty(0), g)
+    assert signature is not None
+    first = refit(-np.array([1.0, 1.0, 0.0]), free, np.ones(1), names=(0, 1, 7))
+    (after,) = left_over(Scan((signature,), 0.5), base, first, 0).signatures
+    assert after.whole == pytest.approx([1.0, 1.0, 0.0])
+    assert after.gain == pytest.approx(2.0)
+
+
+def test_with_other_partners_the_scan_is_made_anew(monkeypatch: pytest.MonkeyPatch) -> None:
     g = np.array([1.0, 0.0])
     base = refit(-g, np.zeros((2, 1)), np.ones(1))
     signature = _Constants(base).signature(LUMP, np.empty(0), g)
     assert signature is not None
-    before = Scan((signature,), 0.5)
-    assert rescanned(before, base, refit(-g, np.zeros((2, 1)), np.ones(1), test="other")) is before
+    monkeypatch.setattr(module, "scan", lambda _, candidates, seed: (candidates, seed))
+    other = refit(-g, np.zeros((2, 1)), np.ones(1), test="other")
+    assert left_over(Scan((signature,), 0.5), base, other, 3) == ([LUMP], 3)
 
 
 def test_what_an_explanation_leaves_has_a_chance_of_its_own() -> None:

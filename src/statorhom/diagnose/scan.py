@@ -7,6 +7,7 @@ when nothing is missing comes from draws of noise and constants that are refitte
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import product
@@ -25,6 +26,7 @@ ANGLES_PER_ORDER = 5  # places per half wave of the highest split order
 # of the core's length; not its middle, where splits of a symmetric stator have no slope that a refit could follow
 HEIGHTS = (0.15, 0.45, 0.7)
 DRAWS = 4000
+COMMON = 0.6  # of the features, from which on signatures of one optimum are those of another
 INVISIBLE = 1e-6  # of a signature's square that the constants leave: none that could be told
 
 
@@ -114,35 +116,41 @@ def scan(base: Refit, candidates: Sequence[Candidate], seed: int) -> Scan:
     return Scan(tuple(found), _p_value(found, away.q, seed))
 
 
-def rescanned(before: Scan, base: Refit, first: Refit) -> Scan:
+def left_over(before: Scan, base: Refit, first: Refit, seed: int) -> Scan:
     """What the effects would take away of the misfit that an explanation leaves, its constants refitted too.
 
-    Signatures keep their shapes; where the explanation's modes have other partners, the scan stays as it is.
+    Signatures keep their shapes on the features that both have; where these are few, the scan is made anew.
 
     Parameters
     ----------
     before, base : the scan and the optimum that it was made at.
     first : the explanation.
+    seed : of the draws that tell the chance of the largest gain if the explanation leaves nothing.
     """
-    if _rows(base) != _rows(first):
-        return before
+    own, rows = _rows(base), _rows(first)
+    known = {row: place for place, row in enumerate(own)}
+    places = [known.get(row) for row in rows]
+    if sum(place is not None for place in places) < COMMON * max(len(own), len(rows)):
+        return scan(first, list({s.candidate.label: s.candidate for s in before.signatures}.values()), seed)
     away = _Constants(first)
-    again = (away.signature(s.candidate, s.start, s.whole) for s in before.signatures)
-    return Scan(tuple(sorted((s for s in again if s is not None), key=lambda s: -s.gain)), before.p_value)
+    found = []
+    for s in before.signatures:
+        whole = np.array([0.0 if place is None else s.whole[place] for place in places])
+        if (again := away.signature(s.candidate, s.start, whole)) is not None:
+            found.append(again)
+    found.sort(key=lambda s: -s.gain)
+    return Scan(tuple(found), _p_value(found, away.q, seed))
 
 
-def left_over(before: Scan, base: Refit, first: Refit, seed: int) -> Scan:
-    """The same, with the chance of its largest gain if the explanation leaves nothing; anew with other partners."""
-    if _rows(base) == _rows(first):
-        again = rescanned(before, base, first)
-        return replace(again, p_value=_p_value(again.signatures, _Constants(first).q, seed))
-    candidates = {s.candidate.label: s.candidate for s in before.signatures}
-    return scan(first, list(candidates.values()), seed)
-
-
-def _rows(r: Refit) -> list[tuple[str, str, object]]:
-    """What the features are of."""
-    return [(f.kind, f.test, f.key) for f in r.hypothesis.features(r.z)]
+def _rows(r: Refit) -> list[tuple[str, str, object, int]]:
+    """What the features are of; equal ones are counted."""
+    seen: Counter[tuple[str, str, object]] = Counter()
+    rows: list[tuple[str, str, object, int]] = []
+    for f in r.hypothesis.features(r.z):
+        what = f.kind, f.test, f.key
+        rows.append((*what, seen[what]))
+        seen[what] += 1
+    return rows
 
 
 class _Constants:
