@@ -54,5 +54,5 @@ def _shown(kind: str, value: float) -> str:
     if kind == "shift":
         return f"{100 * value:+.4f} %"
     if kind == "lean":
-        return f"{100 * value:+.2f} %"
+        return f"{round(100 * value, 2) + 0.0:+.2f} %"  # no minus before nothing
     return f"{value:.4g}"
