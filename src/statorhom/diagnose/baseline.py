@@ -71,7 +71,8 @@ def baseline(
         If files, masses or tests do not allow it.
     """
     setups = [stage_setup(files, geometry, i) for i in range(len(files.study.stages))]
-    tests = {name: test.on_core(ring_of(files).length) for name, test in tests.items()}
+    length = ring_of(files).length
+    tests = {name: test.on_core(length) for name, test in tests.items()}
     tested = [s for s in setups if s.tests and s.step is not None]
     if not tested:
         raise IdentificationError(f"{files.path}: no stage has a test; there is nothing to diagnose")

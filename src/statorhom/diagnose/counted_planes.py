@@ -12,10 +12,11 @@ from dataclasses import replace
 import numpy as np
 
 from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.order_profiles import reference_profiles
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.model.convergence import ModeKey
-from statorhom.model.radial_profile import node_planes, radial_profile
+from statorhom.model.radial_profile import node_planes
 
 FAINT = 0.25  # of the largest amplitude, below which a plane may be taken for one near a node
 MIXED = 0.003  # relative: modes of one order that lie nearer to each other than this may be mixed in any way
@@ -41,13 +42,8 @@ def _counts(stage: StageModel, z_m: tuple[float, ...]) -> Mapping[ModeKey, tuple
     """Of every named mode of the reference, the likeliest first."""
     place = ("counted planes", z_m)
     if place not in stage.kept_responses:
-        profile = radial_profile(stage.model.mesh, np.sort(z_m))
-        solved = stage.solve(stage.reference)
-        found = {}
-        for key, mode in stage.reference_keys.items():
-            problem, vectors = stage.ring.problems[mode.problem], solved.vectors[mode.problem]
-            shape = problem.space.expand(problem.basis @ vectors[:, [mode.column]])
-            found[key] = _possible(profile.orders(problem.space, shape))
+        profiles = reference_profiles(stage, tuple(sorted(z_m)))
+        found = {key: _possible(along[:, None]) for key, along in profiles.items()}
         stage.kept_responses[place] = {
             key: (*counts, *range(len(z_m))) if _is_mixed(stage, key) else counts
             for key, counts in found.items()

@@ -184,15 +184,11 @@ def _evidence(
 
 def _diagnosis(approach: Approach, files: StudyFiles, found: Found, choice: Choice) -> Diagnosis:
     base, best = found.base.refit, found.best
-    chances = _probabilities(found)
+    chances, own = _probabilities(found), "+".join(best.effects)
     named = found.verdict == "named"
     after = best.refit if found.verdict in ("named", "ambiguous") else base
     unseen = found.evidence.held_out
-    rest = [
-        Alternative(effect=e, probability=p)
-        for e, p in chances.items()
-        if e != "+".join(best.effects) or not named
-    ]
+    rest = [Alternative(effect=e, probability=p) for e, p in chances.items() if e != own or not named]
     ambiguous = found.verdict == "ambiguous"
     several = [a for a in rest if a.effect != "none"]
     # the second one of an ambiguous answer may win in resamplings alone
@@ -205,9 +201,7 @@ def _diagnosis(approach: Approach, files: StudyFiles, found: Found, choice: Choi
         schema=1,
         study=files.study.name,
         verdict=found.verdict,
-        effects=effect_results(best, chances.get("+".join(best.effects), 0.0), approach.located)
-        if named
-        else (),
+        effects=effect_results(best, chances.get(own, 0.0), approach.located) if named else (),
         alternatives=tuple(shown) if found.verdict != "none" else (),
         mismatch=mismatch(base) if found.verdict != "none" else None,
         fit=FitErrors(

@@ -17,11 +17,11 @@ from statorhom.model.radial_profile import radial_profile
 FloatArray = npt.NDArray[np.float64]
 
 
-def reference_profiles(stage: StageModel) -> Mapping[ModeKey, FloatArray]:
-    """Profiles (heights,) of the symmetric stator's named modes at the reference; kept."""
-    place = ("profiles", stage.heights_m)
+def reference_profiles(stage: StageModel, heights_m: tuple[float, ...]) -> Mapping[ModeKey, FloatArray]:
+    """Profiles (heights,) of the symmetric stator's named modes at the reference, over ascending heights; kept."""
+    place = ("profiles", heights_m)
     if place not in stage.kept_responses:
-        profile = radial_profile(stage.model.mesh, np.array(stage.heights_m))
+        profile = radial_profile(stage.model.mesh, np.array(heights_m))
         solved = stage.solve(stage.reference)
         found = {}
         for key, mode in stage.reference_keys.items():

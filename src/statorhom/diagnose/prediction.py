@@ -150,7 +150,7 @@ def predicted(
     base = _base(stage, materials, here, names)
     shifts = broken_responses(stage, here, None if mark is None else (test, mark))
     mesh = values[f"{stage.name}:mesh"]
-    own = reference_profiles(stage) if stage.heights_m else {}
+    own = reference_profiles(stage, stage.heights_m) if stage.heights_m else {}
     found = {}
     for key, one in base.items():
         shared = stage.error.shared(key)

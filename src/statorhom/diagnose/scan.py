@@ -15,7 +15,8 @@ from itertools import product
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.diagnose.any_hypothesis import ModelledStudy
+from statorhom.diagnose.any_hypothesis import AnyHypothesis, ModelledStudy
+from statorhom.diagnose.features import Feature
 from statorhom.diagnose.refit import Refit
 from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
@@ -106,10 +107,14 @@ def scan(base: Refit, candidates: Sequence[Candidate], seed: int) -> Scan:
     seed : of the draws.
     """
     away = _Constants(base)
+    # a signature's direction needs no local fields
+    hypothesis = replace(base.hypothesis, trained=False)
+    without = hypothesis.features(base.z)
     found = []
     for candidate in candidates:
+        acted = replace(hypothesis, candidates=(*hypothesis.candidates, candidate))
         for start in starts(base.hypothesis.study, candidate):
-            change = _change(base, candidate, start)
+            change = _change(without, acted, np.r_[base.z, start])
             if change is not None and (signature := away.signature(candidate, start, change)) is not None:
                 found.append(signature)
     found.sort(key=lambda s: -s.gain)
@@ -212,16 +217,12 @@ def _choices(study: ModelledStudy, parameter: EffectParameter) -> list[float]:
     return [parameter.internal(value) for value in parameter.starts]
 
 
-def _change(base: Refit, candidate: Candidate, start: FloatArray) -> FloatArray | None:
+def _change(without: Sequence[Feature], acted: AnyHypothesis, z: FloatArray) -> FloatArray | None:
     """Residuals with the effect minus those without, pairing held; None where no body has the effect."""
-    # a signature's direction needs no local fields
-    hypothesis = replace(base.hypothesis, trained=False)
-    acted = replace(hypothesis, candidates=(*hypothesis.candidates, candidate))
     try:
-        with_effect = acted.features(np.r_[base.z, start])
+        with_effect = acted.features(z)
     except (StatorhomError, KeyError):
         return None
-    without = hypothesis.features(base.z)
     # a mode that vanishes with the effect is a jump that says nothing of its signature
     return np.array(
         [
