@@ -19,7 +19,9 @@ from statorhom.identify.stage_setup import stage_setup
 from statorhom.mesh import uniform
 
 
-def template_hypothesis(folder: Path, tables: dict[str, str], more: str = "") -> Hypothesis:
+def template_hypothesis(
+    folder: Path, tables: dict[str, str], more: str = "", *, with_losses: bool = False
+) -> Hypothesis:
     """Of a study with modal tables of these names; `more` is added to its file."""
     write_template(folder)
     for name, table in tables.items():
@@ -30,7 +32,7 @@ def template_hypothesis(folder: Path, tables: dict[str, str], more: str = "") ->
     files, tests = measured_tests(files, folder)
     geometry = stator_geometry(files.geometry, files.geometry_path)
     setup = stage_setup(files, geometry, 0)
-    constants = study_constants([setup], [2, 3], SCATTER_SD)
+    constants = study_constants([setup], [2, 3], SCATTER_SD, with_losses=with_losses)
     model = StudyModel(files, geometry, constants, ())
     values = constants.values(np.zeros(len(constants)))
     materials = model.declared(setup, values, model.masses(values, {}))

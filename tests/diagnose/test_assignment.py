@@ -17,15 +17,26 @@ KEY = (2, 2, 0)
 LINES = tuple(MeasuredMode(i, str(i), f, order=2, axial=2) for i, f in enumerate((5400.0, 5850.0)))
 
 
-def partners(split: complex) -> tuple[object, ...]:
+def partners(split: complex, *further: MeasuredMode, lines: tuple[MeasuredMode, ...] = LINES) -> list[object]:
     mode = StatorMode(5620.0, 2, 2, "radial", 1.0, 2, 0, 0)
     predicted = {KEY: PredictedMode(KEY, mode, float(np.log(5620.0)), split, 1e-3)}
-    return assigned(MeasuredTest(0, "t", "free", LINES, False), LINES, predicted)
+    modes = (*lines, *further)
+    return sorted(assigned(MeasuredTest(0, "t", "free", modes, False), modes, predicted), key=str)
 
 
 def test_lines_that_a_lump_parts_by_much_are_one_doublet_where_that_is_predicted() -> None:
-    assert partners(0.15 + 0j) == (KEY, KEY)
-    assert sorted(partners(0.001 + 0j), key=str) == [KEY, None]
+    third = MeasuredMode(2, "2", 7000.0, order=2, axial=2)
+    assert partners(0.15 + 0j, third) == [KEY, KEY, None]
+    assert partners(0.001 + 0j, third) == [KEY, None, None]
+
+
+def test_two_lines_that_alone_bear_a_name_are_one_doublet_whatever_is_predicted() -> None:
+    assert partners(0.001 + 0j) == [KEY, KEY]
+    # farther apart than any doublet, the names are of two modes
+    assert partners(0.001 + 0j, lines=(LINES[0], MeasuredMode(1, "1", 6000.0, order=2, axial=2))) == [
+        KEY,
+        None,
+    ]
 
 
 @pytest.mark.parametrize(

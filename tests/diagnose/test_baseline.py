@@ -32,7 +32,7 @@ def chosen(monkeypatch: pytest.MonkeyPatch, *valleys: SimpleNamespace) -> tuple[
         "_materials": lambda *_: [],
         "stage_model": lambda *_: None,
         "Hypothesis": lambda study: study,
-        "wide_optima": lambda *_: list(valleys),
+        "wide_optima": lambda *_, **__: list(valleys),
         "_settled": settle,
         "nothing": lambda found: found,
         "_wide_objective": lambda found: found.own_wide,

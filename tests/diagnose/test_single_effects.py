@@ -16,6 +16,15 @@ from statorhom.diagnose.single_effects import refits
 LIMIT = 90.0
 
 
+@dataclass(frozen=True)
+class Chances:
+    """Of what an explanation leaves, with and without its worst row."""
+
+    refit: Any
+    adequacy: float
+    adequacy_but_one: float
+
+
 def worths(
     monkeypatch: pytest.MonkeyPatch, misfit: float, *prices: int, place: str = "nowhere"
 ) -> list[float]:
@@ -119,3 +128,11 @@ def test_a_rival_that_explains_much_is_tried_with_local_fields(
     start = Start(Trained(), np.zeros(1))  # type: ignore[arg-type]
     best: Any = module._rival(start, 90.0, 270.0)
     assert best.objective == found
+
+
+def test_a_gross_row_that_one_effect_leaves_is_no_limit_to_what_costs_little() -> None:
+    refit = SimpleNamespace(objective=240.0)
+    leaves: Any = Chances(refit, 1e-20, 0.3)
+    explains: Any = Chances(refit, 0.3, 0.3)
+    assert module._worth([leaves]) == module._worth([explains], whole=True) == 240.0 + module.NEAR
+    assert module._worth([leaves], whole=True) == np.inf

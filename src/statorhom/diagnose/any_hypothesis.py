@@ -85,7 +85,7 @@ class AnyHypothesis(ABC):
 
     @abstractmethod
     def features_of_all(self, z: FloatArray) -> list[Feature]:
-        """Features whether seen or not, at a held pairing."""
+        """Features whether seen or left out, at a held pairing; what wide valleys never see may be missing."""
 
     @property
     def constants(self) -> int:
@@ -140,9 +140,14 @@ class AnyHypothesis(ABC):
         """All features that are seen, or those that are left out."""
         return [f for f in self.features_of_all(z) if self.sees(f) != left_out]
 
+    @property
+    def in_wide_valleys(self) -> bool:
+        """Whether it sees frequencies and densities alone."""
+        return self.discrepancy > 0.0
+
     def sees(self, feature: Feature) -> bool:
-        """Wide valleys are sought with frequencies alone."""
-        if self.discrepancy and feature.kind not in ("frequency", "density"):
+        """Whether the residuals contain it; wide valleys are sought with frequencies alone."""
+        if self.in_wide_valleys and feature.kind not in ("frequency", "density"):
             return False
         return feature.group not in self.left_out
 

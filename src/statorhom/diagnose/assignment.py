@@ -15,6 +15,8 @@ from statorhom.modes.pairing import DOUBLET_SPLIT, pair
 from statorhom.study.modal_table import MeasuredMode
 
 AS_FAR = 1.3  # of a predicted split: up to which two lines are its own
+WIDEST = 0.1  # of ln f: two lines that alone bear one name are a doublet's up to here, whatever parts them
+ROUNDING = 1e-9
 # of the distance up to which modes are partners: that of partners where most modes agree already
 NEAR = 0.2
 
@@ -37,13 +39,25 @@ def assigned(
         gate=GATE,
         labelled_gate=LABELLED_GATE,
         # a heavy lump may part a doublet's lines by more than any scatter does
-        doublet_split=max([DOUBLET_SPLIT, *(AS_FAR * abs(m.split) / 2 for m in simulated)]),
+        doublet_split=max(
+            [DOUBLET_SPLIT, *(AS_FAR * abs(m.split) / 2 for m in simulated), *_of_one_name(modes)]
+        ),
         with_doubt=False,
     )
     keys: list[ModeKey | None] = [None] * len(modes)
     for p in found.pairs:
         keys[used[p.measured]] = simulated[p.simulated].key
     return tuple(keys)
+
+
+def _of_one_name(modes: Sequence[MeasuredMode]) -> list[float]:
+    """How far (of ln f) pairs of lines lie apart that alone bear one name."""
+    named: dict[tuple[int, int], list[float]] = {}
+    for mode in modes:
+        if mode.order and mode.axial is not None:
+            named.setdefault((mode.order, mode.axial), []).append(float(np.log(mode.frequency_hz)))
+    apart = [float(np.ptp(lines)) for lines in named.values() if len(lines) == 2]
+    return [distance * (1 + ROUNDING) for distance in apart if distance <= WIDEST]
 
 
 def _as_seen(mode: PredictedMode, modes: Sequence[MeasuredMode]) -> PredictedMode:

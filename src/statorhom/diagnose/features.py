@@ -143,13 +143,14 @@ def free_features(
 
 def _vanished(test: MeasuredTest, rows: Sequence[MeasuredMode], key: ModeKey) -> list[Feature]:
     """Penalties in the place of the features of a held partner that is predicted no more: as many, in their order."""
+    labels = tuple(row.label for row in rows)
     if len(rows) == 1:
         kinds = ["frequency"] if key[0] == 0 else ["frequency", "split"]
     else:
         seen = _split_of(test, rows) is not None
         kinds = ["frequency", *(["split"] * (2 if seen else 0 if test.recorded else 1))]
     return [
-        Feature(kind, test.name, key, 0.0, LOST if i < len(rows) else 0.0, 1.0, lost=True)
+        Feature(kind, test.name, key, 0.0, LOST if i < len(rows) else 0.0, 1.0, lost=True, rows=labels)
         for i, kind in enumerate(kinds)
     ]
 
@@ -212,20 +213,24 @@ def _mode_features(
     if len(rows) == 1:
         return _single(test, rows[0], predicted, split, own)
     low, high = rows[0], rows[-1]
+    labels = tuple(row.label for row in rows)
     pairing = _split_of(test, rows)
     mean = float(np.mean(np.log([low.frequency_hz, high.frequency_hz])))
     sd = float(np.hypot(measured_sd(low), measured_sd(high))) / 2
     if test.recorded and pairing is None:
         # images of one mode, or a doublet whose angles do not show: somewhere between
         sd = float(np.hypot(sd, np.log(high.frequency_hz / low.frequency_hz) / 2))
-        return [Feature("frequency", test.name, key, mean, predicted.log_f, float(np.hypot(sd, own)))]
-    found = [Feature("frequency", test.name, key, mean, predicted.log_f, float(np.hypot(sd, own)))]
+    whole = float(np.hypot(sd, own))
+    found = [Feature("frequency", test.name, key, mean, predicted.log_f, whole, rows=labels)]
+    if test.recorded and pairing is None:
+        return found
     if pairing is not None:
         sd = _split_sd(pairing.sd, abs(pairing.relative), shape)
         parts = ((pairing.relative.real, split.real), (pairing.relative.imag, split.imag))
-        return found + [Feature("split", test.name, key, m, p, sd) for m, p in parts]
+        return found + [Feature("split", test.name, key, m, p, sd, rows=labels) for m, p in parts]
     size, noise = _size_of(rows), 2 * float(np.hypot(measured_sd(low), measured_sd(high)))
-    return [*found, Feature("split", test.name, key, size, abs(split), _split_sd(noise, size, shape))]
+    sd = _split_sd(noise, size, shape)
+    return [*found, Feature("split", test.name, key, size, abs(split), sd, rows=labels)]
 
 
 def _split_sd(noise: float, size: float, shape: float) -> float:
@@ -252,8 +257,9 @@ def _single(
     """One line of a doublet: not resolved, or its other line was missed."""
     log_f, measured = predicted.log_f, float(np.log(row.frequency_hz))
     sd = float(np.hypot(measured_sd(row), own))
+    own_row = (row.label,)
     if predicted.multiplicity == 1:
-        return [Feature("frequency", test.name, predicted.key, measured, log_f, sd)]
+        return [Feature("frequency", test.name, predicted.key, measured, log_f, sd, rows=own_row)]
     # where the effect parts the two lines, it is one of them, a quarter of the split of λ to either side of the mean
     away = abs(predicted.split) / 4 if abs(predicted.split) > (row.loss_factor or 0.01) else 0.0
     log_f += away * float(np.tanh((measured - log_f) / (0.3 * away + 1e-9)))
@@ -261,8 +267,8 @@ def _single(
     most = 3.0 if test.recorded else 1.8  # tables leave modes out
     unresolved = most * float(np.tanh(abs(split) / (width * most)))
     return [
-        Feature("frequency", test.name, predicted.key, measured, log_f, sd),
-        Feature("split", test.name, predicted.key, 0.0, unresolved, 1.0),
+        Feature("frequency", test.name, predicted.key, measured, log_f, sd, rows=own_row),
+        Feature("split", test.name, predicted.key, 0.0, unresolved, 1.0, rows=own_row),
     ]
 
 

@@ -48,8 +48,9 @@ def by_frequency(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Featur
     """
     constants = h.study.constants
     values, actions = constants.values(z[: h.constants]), h.actions(z)
-    columns = _scatter_columns(h, z, told, base)
-    columns |= _loss_columns(h, z, told, base)
+    columns: dict[int, FloatArray] = {}
+    if not h.in_wide_valleys:
+        columns |= _scatter_columns(h, z, told, base) | _loss_columns(h, z, told, base)
     acting = [
         j
         for j, name in enumerate(constants.names)
@@ -113,7 +114,7 @@ def _scatter_columns(
             continue
         moved = z.copy()
         moved[list(own)] += STEP
-        found, _ = h.all_features(moved, told)
+        found, _ = h.features_with(moved, told)
         slopes = slopes_of(base, found, STEP)
         orders = np.array([-1 if f.key is None else f.key[0] for f in base])
         columns |= {j: np.where(orders == order, slopes, 0.0) for j, order in own.items()}
@@ -127,7 +128,7 @@ def _loss_columns(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Featu
         if name in names:
             moved = z.copy()
             moved[j] += STEP
-            found, _ = h.all_features(moved, told)
+            found, _ = h.features_with(moved, told)
             columns[j] = slopes_of(base, found, STEP)
     return columns
 
@@ -144,7 +145,7 @@ def _own_slopes(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Feature
         )
         for name, (stage, tests) in told.items()
     }
-    found, _ = h.all_features(z, raised)
+    found, _ = h.features_with(z, raised)
     return slopes_of(base, found, LOG_STEP)
 
 

@@ -68,6 +68,8 @@ class Hypothesis(AnyHypothesis):
     study: StudyModel
     held: Mapping[str, Keys | Partners] | None = None
     names: Mapping[str, Names] = field(default_factory=dict)
+    # the last point's features: whoever pairs, polishes and judges asks for the same ones in turn
+    _last: dict[bytes, tuple[list[Feature], Told]] = field(default_factory=dict, init=False, repr=False)
 
     def mark(self, z: FloatArray) -> tuple[tuple[str, tuple[float, ...]], ...]:
         """What the actions depend on."""
@@ -133,11 +135,20 @@ class Hypothesis(AnyHypothesis):
         return test.named(names)
 
     def features_of_all(self, z: FloatArray) -> list[Feature]:
-        """Features whether seen or not, at a held pairing."""
+        """Features whether seen or left out, at a held pairing; in wide valleys frequencies and splits alone."""
         return self.all_features(z)[0]
 
-    def all_features(self, z: FloatArray, moved: Told | None = None) -> tuple[list[Feature], Told]:
-        """Features whether seen or not, and the predictions behind them; `moved` stands in for these."""
+    def all_features(self, z: FloatArray) -> tuple[list[Feature], Told]:
+        """The same, and the predictions behind them."""
+        point = z.tobytes()
+        if point not in self._last:
+            found = self.features_with(z)
+            self._last.clear()
+            self._last[point] = found
+        return self._last[point]
+
+    def features_with(self, z: FloatArray, moved: Told | None = None) -> tuple[list[Feature], Told]:
+        """The same with predictions that were moved, where there are any."""
         values, actions = self.study.constants.values(z[: self.constants]), self.actions(z)
         assert self.held is not None
         found = self.densities(values, actions)
@@ -171,7 +182,7 @@ class Hypothesis(AnyHypothesis):
             # only what has a measured partner matters
             held = set(cast(Keys, self.held[test.name]))
             modes = {k: m for k, m in modes.items() if k in held}
-        if is_damped(self.study, test):
+        if self._is_damped(test, actions):
             modes = with_shares(self.study, stage, test, modes, values, actions)
         levels = force_levels(stage)
         for action in actions:
@@ -179,6 +190,11 @@ class Hypothesis(AnyHypothesis):
                 quiet = self._losses(stage, test, modes, values, actions)
                 modes = slipped(modes, action.friction, levels[test.name], max(levels.values()), quiet)
         return modes
+
+    def _is_damped(self, test: MeasuredTest, actions: Sequence[Action]) -> bool:
+        """Whether damping matters: what slips is moved by it even where frequencies alone are seen."""
+        slips = any(action.friction is not None for action in actions)
+        return is_damped(self.study, test) and (slips or not self.in_wide_valleys)
 
     def _losses(
         self,
@@ -189,7 +205,7 @@ class Hypothesis(AnyHypothesis):
         actions: Sequence[Action],
     ) -> dict[ModeKey, float]:
         """Loss factors of predicted modes; none where no damping is predicted."""
-        if not is_damped(self.study, test):
+        if not self._is_damped(test, actions):
             return {}
         contact = joint_loss(stage, actions)
         return {
@@ -269,12 +285,12 @@ class Hypothesis(AnyHypothesis):
             found += level_features(
                 test, (self.modes(lower, actions), measured), both, (known[base], modes), (quiet, losses)
             )
-        elif is_damped(self.study, test):
+        elif self._is_damped(test, actions):
             found += free_losses(test, measured, keys, losses)
-        if response is not None:
+        if response is not None and not self.in_wide_valleys:
             labels = {m.label: k for m, k in zip(measured, keys, strict=True) if k is not None}
             found += shift_features(test, labels, response, sensor)
-        if stage.heights_m and test.shapes is not None:
+        if stage.heights_m and test.shapes is not None and not self.in_wide_valleys:
             found += lean_features(test, measured, keys, modes, stage.heights_m)
         return with_rows(found, measured, keys)
 

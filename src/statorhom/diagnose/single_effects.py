@@ -20,6 +20,7 @@ from statorhom.diagnose.explanations import (
     refitted,
     through_wide_valleys,
 )
+from statorhom.diagnose.from_the_best import from_the_best
 from statorhom.diagnose.mislabelled import worth_trying
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.refit_starts import (
@@ -59,7 +60,8 @@ def single_effects(
     counts : effect → number of its candidates, over which its prior is spread.
     """
     favourites = found.worth_refitting(MOST, WORTH, nothing(base).adequacy < ADEQUATE)
-    explanations = refits(base, in_order(base, found, favourites), counts)
+    tried = refits(base, in_order(base, found, favourites), counts)
+    explanations = from_the_best(base, found, tried, counts)
     explanations += new_names(base, discrete, counts, _worth(explanations))
     return sorted(explanations, key=lambda e: -e.log_evidence)
 
@@ -81,7 +83,9 @@ def refits(
     for gain, starts in trials:
         dear = price((gain, starts)) > CHEAP
         limited = dear if is_poor(base) else _has_place(starts[0])
-        worth = min(_worth(explanations), limit if limited else np.inf)
+        # what costs little may explain the one row too that another leaves: that one is no limit to it
+        bar = _worth(explanations) if dear or _has_place(starts[0]) else _worth(explanations, whole=True)
+        worth = min(bar, limit if limited else np.inf)
         if gain < WORTH and np.isfinite(worth):
             continue  # it promises nothing, and nothing is left to explain
         if dear:
@@ -115,10 +119,16 @@ def new_names(
     return sorted(found, key=lambda e: -e.log_evidence)
 
 
-def _worth(explanations: Sequence[Explanation]) -> float:
-    """Objective above which a further explanation is no rival; infinite while nothing explains the misfit."""
-    adequate = [e.refit.objective for e in explanations if e.adequacy_but_one > ADEQUATE]
-    return min(adequate, default=np.inf) + NEAR
+def _worth(explanations: Sequence[Explanation], *, whole: bool = False) -> float:
+    """Objective above which a further explanation is no rival; infinite while nothing explains the misfit.
+
+    Parameters
+    ----------
+    whole : whether it has to explain the worst row too.
+    """
+    chances = [e.adequacy if whole else e.adequacy_but_one for e in explanations]
+    pairs = zip(explanations, chances, strict=True)
+    return min((e.refit.objective for e, p in pairs if p > ADEQUATE), default=np.inf) + NEAR
 
 
 def _leading(base: Refit, explanations: Sequence[Explanation]) -> float:

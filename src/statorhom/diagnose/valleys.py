@@ -18,6 +18,8 @@ _H = TypeVar("_H", bound=AnyHypothesis)
 
 # points that are tried, refitted in wide valleys, and sharpened
 TRIALS, STARTS, SHARPENED = 200, 16, 3
+# how many are refitted while all of them miss frequencies by more than a part of what wide valleys forgive
+MOST, FITTING = 48, 0.25
 APART = 1.0  # prior standard deviations between starts
 FAR_BEHIND = 20.0  # of the objective in wide valleys: what stays so far behind is no other optimum
 NO_START = "no start of the declared model could be fitted; check masses and tables"
@@ -56,13 +58,15 @@ def optima(blank: _H, trials: Sequence[np.ndarray]) -> list[Refit[_H]]:
     return _different(found)
 
 
-def wide_optima(blank: _H, trials: Sequence[np.ndarray], starts: int = STARTS) -> list[Refit[_H]]:
+def wide_optima(
+    blank: _H, trials: Sequence[np.ndarray], starts: int = STARTS, most: int | None = None
+) -> list[Refit[_H]]:
     """Different optima in wide valleys, the best first; for those who do not know yet what the mesh is wrong by.
 
     Parameters
     ----------
     blank, trials : as for `optima`.
-    starts : number of points that are refitted at most.
+    starts, most : number of points that are refitted, and at most where none of them fits.
 
     Raises
     ------
@@ -78,13 +82,20 @@ def wide_optima(blank: _H, trials: Sequence[np.ndarray], starts: int = STARTS) -
             continue
     scored.sort(key=lambda pair: pair[0])
     found: list[Refit[_H]] = []
-    for z in _apart([z for _, z in scored], starts):
+    for number, z in enumerate(_apart([z for _, z in scored], most or starts)):
+        if number >= starts and any(_fits(r) for r in found):
+            break
         # what promises nothing beside the best so far is not followed
         worth = min((r.objective for r in found), default=np.inf) + FAR_BEHIND
         found += [r] if (r := refitted(coarse, z, worth)) is not None else []
     if not found:
         raise IdentificationError(NO_START)
     return _different(found)
+
+
+def _fits(found: Refit[_H]) -> bool:
+    """Whether what is left in wide valleys is less than another optimum may leave."""
+    return found.misfit < FITTING * len(found.jacobian)
 
 
 def _different(found: Sequence[Refit[_H]]) -> list[Refit[_H]]:

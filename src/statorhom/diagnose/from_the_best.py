@@ -1,0 +1,71 @@
+"""The other effects once more, from the constants beside which the best one was found.
+
+Where the declared model stands in a wrong valley, the first effect that leads into the right one looks unique: the
+others were sought from elsewhere. A mass that does not move and one that was typed wrongly are the same to all modes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from statorhom.diagnose.explanations import Explanation, blank, explained, refitted
+from statorhom.diagnose.refit import Refit, refit_objective
+from statorhom.diagnose.refit_starts import CHEAP, Start, price
+from statorhom.diagnose.scan import Scan, Signature
+from statorhom.errors import StatorhomError
+
+MOVED = 1.0  # prior standard deviations between the constants of two valleys
+RIVAL = 20.0  # of the objective: what does not come so near to the best is given up
+
+
+def from_the_best(
+    base: Refit, found: Scan, explanations: Sequence[Explanation], counts: dict[str, int]
+) -> list[Explanation]:
+    """The explanations, those with other effects that cost little replaced where the best one's constants are better.
+
+    Parameters
+    ----------
+    base : the declared model's optimum.
+    found : the scan there.
+    explanations : by single effects.
+    counts : effect → number of its candidates, over which its prior is spread.
+    """
+    best = max(explanations, key=lambda e: e.log_evidence, default=None)
+    constants = len(base.z)
+    if best is None or np.linalg.norm(best.refit.z[:constants] - base.z) <= MOVED:
+        return list(explanations)
+    known = {_label(e): e for e in explanations}
+    own: dict[str, list[Signature]] = {}
+    for signature in found.signatures:
+        own.setdefault(signature.candidate.label, []).append(signature)
+    for label, signatures in own.items():
+        if label != _label(best) and (again := _beside(base, best, signatures)) is not None:
+            other = explained(again, counts)
+            if label not in known or other.log_evidence > known[label].log_evidence:
+                known[label] = other
+    return list(known.values())
+
+
+def _label(explanation: Explanation) -> str:
+    return explanation.candidates[-1].label
+
+
+def _beside(base: Refit, best: Explanation, signatures: Sequence[Signature]) -> Refit | None:
+    """An effect's optimum next to the best one's constants; None where its trial would be dear, or promises nothing."""
+    candidate = signatures[0].candidate
+    hypothesis = blank(best.refit.hypothesis, (*base.hypothesis.candidates, candidate))
+    points = [np.r_[best.refit.z[: len(base.z)], s.start] for s in signatures]
+    if price((0.0, [Start(hypothesis, points[0])])) != CHEAP or hypothesis.actions(points[0])[-1].dimensions:
+        return None
+    scored = []
+    for z in points:
+        try:
+            scored.append((refit_objective(hypothesis, z), z))
+        except StatorhomError:
+            continue
+    if not scored:
+        return None
+    nearest = min(scored, key=lambda pair: pair[0])[1]
+    return refitted(hypothesis, nearest, best.refit.objective + RIVAL)
