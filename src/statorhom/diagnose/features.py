@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import hypot, log, tanh
 
 import numpy as np
 
@@ -71,7 +72,7 @@ class Feature:
         """In standard deviations, large ones held down."""
         if self.kind == "loss":
             raw = (self.measured - self.predicted) / self.sd
-            return MOST_LOSS * float(np.tanh(raw / MOST_LOSS))
+            return MOST_LOSS * tanh(raw / MOST_LOSS)
         return held_down((self.measured - self.predicted) / self.sd)
 
     @property
@@ -134,7 +135,7 @@ def free_features(
         if key is None:
             found += _lost(test, rows, typical)
         elif key in predicted:
-            own = float(np.hypot(own_sd(error, key), discrepancy))
+            own = hypot(own_sd(error, key), discrepancy)
             found += _mode_features(test, rows, predicted[key], scatter, own, TYPICAL_PART * typical)
         else:
             found += _vanished(test, rows, key)
@@ -190,7 +191,7 @@ def own_sd(error: ModelError, key: ModeKey) -> float:
     """Relative model error of a mode that others do not share: what of the mesh's is not in their common pattern."""
     correction = error.factor(key) - 1.0
     parts = [OWN, OWN_PART * correction, OWN_SQUARE * correction**2, error.borrowed(key)]
-    return float(np.linalg.norm(parts))
+    return hypot(*parts)
 
 
 def measured_sd(mode: MeasuredMode) -> float:
@@ -215,12 +216,12 @@ def _mode_features(
     low, high = rows[0], rows[-1]
     labels = tuple(row.label for row in rows)
     pairing = _split_of(test, rows)
-    mean = float(np.mean(np.log([low.frequency_hz, high.frequency_hz])))
-    sd = float(np.hypot(measured_sd(low), measured_sd(high))) / 2
+    mean = (log(low.frequency_hz) + log(high.frequency_hz)) / 2
+    sd = hypot(measured_sd(low), measured_sd(high)) / 2
     if test.recorded and pairing is None:
         # images of one mode, or a doublet whose angles do not show: somewhere between
-        sd = float(np.hypot(sd, np.log(high.frequency_hz / low.frequency_hz) / 2))
-    whole = float(np.hypot(sd, own))
+        sd = hypot(sd, log(high.frequency_hz / low.frequency_hz) / 2)
+    whole = hypot(sd, own)
     found = [Feature("frequency", test.name, key, mean, predicted.log_f, whole, rows=labels)]
     if test.recorded and pairing is None:
         return found
@@ -228,18 +229,18 @@ def _mode_features(
         sd = _split_sd(pairing.sd, abs(pairing.relative), shape)
         parts = ((pairing.relative.real, split.real), (pairing.relative.imag, split.imag))
         return found + [Feature("split", test.name, key, m, p, sd, rows=labels) for m, p in parts]
-    size, noise = _size_of(rows), 2 * float(np.hypot(measured_sd(low), measured_sd(high)))
+    size, noise = _size_of(rows), 2 * hypot(measured_sd(low), measured_sd(high))
     sd = _split_sd(noise, size, shape)
     return [*found, Feature("split", test.name, key, size, abs(split), sd, rows=labels)]
 
 
 def _split_sd(noise: float, size: float, shape: float) -> float:
-    return float(np.linalg.norm([noise, SPLIT_OWN, SPLIT_PART * size, shape]))
+    return hypot(noise, SPLIT_OWN, SPLIT_PART * size, shape)
 
 
 def _size_of(rows: Sequence[MeasuredMode]) -> float:
     """Split of λ by two lines, relative."""
-    return 2 * float(np.log(rows[-1].frequency_hz / rows[0].frequency_hz))
+    return 2 * log(rows[-1].frequency_hz / rows[0].frequency_hz)
 
 
 def _typical_split(test: MeasuredTest, doublets: Sequence[Sequence[MeasuredMode]]) -> float:
@@ -255,17 +256,17 @@ def _single(
     test: MeasuredTest, row: MeasuredMode, predicted: PredictedMode, split: complex, own: float
 ) -> list[Feature]:
     """One line of a doublet: not resolved, or its other line was missed."""
-    log_f, measured = predicted.log_f, float(np.log(row.frequency_hz))
-    sd = float(np.hypot(measured_sd(row), own))
+    log_f, measured = predicted.log_f, log(row.frequency_hz)
+    sd = hypot(measured_sd(row), own)
     own_row = (row.label,)
     if predicted.multiplicity == 1:
         return [Feature("frequency", test.name, predicted.key, measured, log_f, sd, rows=own_row)]
     # where the effect parts the two lines, it is one of them, a quarter of the split of λ to either side of the mean
     away = abs(predicted.split) / 4 if abs(predicted.split) > (row.loss_factor or 0.01) else 0.0
-    log_f += away * float(np.tanh((measured - log_f) / (0.3 * away + 1e-9)))
+    log_f += away * tanh((measured - log_f) / (0.3 * away + 1e-9))
     width = UNRESOLVED * (row.loss_factor or 0.01)
     most = 3.0 if test.recorded else 1.8  # tables leave modes out
-    unresolved = most * float(np.tanh(abs(split) / (width * most)))
+    unresolved = most * tanh(abs(split) / (width * most))
     return [
         Feature("frequency", test.name, predicted.key, measured, log_f, sd, rows=own_row),
         Feature("split", test.name, predicted.key, 0.0, unresolved, 1.0, rows=own_row),

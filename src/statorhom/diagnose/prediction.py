@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
+from math import log
 
 import numpy as np
 
@@ -154,7 +155,7 @@ def predicted(
     found = {}
     for key, one in base.items():
         shared = stage.error.shared(key)
-        total = one.log_f + np.log(stage.error.factor(key)) + mesh * shared
+        total = one.log_f + log(stage.error.factor(key)) + mesh * shared
         total += sum(
             dimension_shift(study, stage, a.dimensions, key, proportional=a.proportional)
             for a in here
@@ -220,7 +221,7 @@ def _base(
         if action.modulus_at:
             return _rated(stage, materials, action, names)
     found = named(stage.solve(materials).modes, names)
-    return {key: _Symmetric(mode, float(np.log(mode.frequency_hz))) for key, mode in found.items()}
+    return {key: _Symmetric(mode, log(mode.frequency_hz)) for key, mode in found.items()}
 
 
 def _rated(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,6 +23,14 @@ OWN = 5e-4
 OWN_PART = 0.2
 
 
+class _Terms(NamedTuple):
+    """What is wrong of one mode: computed once, asked for at every evaluation."""
+
+    factor: float
+    borrowed: float
+    shared: float
+
+
 @dataclass(frozen=True)
 class ModelError:
     """Mesh factors and uncertainties of simulated modes.
@@ -38,6 +47,7 @@ class ModelError:
     sds: Mapping[ModeKey, float] = field(default_factory=dict)
     corrections: Mapping[ModeKey, float] = field(default_factory=dict)
     effects: Mapping[ModeKey, Response] = field(default_factory=dict)
+    _known: dict[ModeKey, _Terms] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @classmethod
     def of_factors(cls, factors: Mapping[ModeKey, float]) -> ModelError:
@@ -46,11 +56,11 @@ class ModelError:
 
     def factor(self, key: ModeKey) -> float:
         """Mesh factor of a mode."""
-        return _nearest(self.factors, key, 1.0)
+        return self._terms(key).factor
 
     def borrowed(self, key: ModeKey) -> float:
         """Relative standard deviation of a mesh factor that others stand in for; 0 of a mode with its own."""
-        return 0.0 if key in self.factors else float(np.std(_alike(self.factors, key) or [0.0]))
+        return self._terms(key).borrowed
 
     def effect(self, key: ModeKey) -> float:
         """Factor of the declared effects on the middle of a mode's lines."""
@@ -59,7 +69,17 @@ class ModelError:
 
     def shared(self, key: ModeKey) -> float:
         """Relative standard deviation that the modes of a stage share; they are all wrong in the same direction."""
-        return float(np.hypot(SHARED_FLOOR, SHARED_PART * _nearest(self.corrections, key, 0.0)))
+        return self._terms(key).shared
+
+    def _terms(self, key: ModeKey) -> _Terms:
+        if key not in self._known:
+            others = [] if key in self.factors else _alike(self.factors, key)
+            self._known[key] = _Terms(
+                _nearest(self.factors, key, 1.0),
+                float(np.std(others or [0.0])),
+                float(np.hypot(SHARED_FLOOR, SHARED_PART * _nearest(self.corrections, key, 0.0))),
+            )
+        return self._known[key]
 
     def own(self, key: ModeKey) -> float:
         """Relative standard deviation that a mode does not share with others."""
