@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose.features import LOST, LOST_UNNAMED, Feature
-from statorhom.diagnose.held_out import HeldOut, lacked, left_out_errors
+from statorhom.diagnose.held_out import OF_TABLES, HeldOut, lacked, left_out_errors
 
 TOLD = (
     ("stack-free", (2, 0, 0)),
@@ -80,3 +80,10 @@ def test_a_named_mode_that_only_one_model_has_is_lacked_by_the_other() -> None:
         Feature("frequency", "free", None, LOST_UNNAMED, 0.0, 1.0, lost=True, rows=f.rows) for f in lost
     ]
     assert not lacked(fit_of(*unnamed), fit_of(found))
+
+
+def test_of_a_table_errors_have_to_fall_by_more() -> None:
+    known = TOLD, (1.0, 0.8, 0.9, 1.1), (0.7, 0.56, 0.63, 0.77), (0.01,) * 4
+    assert HeldOut(*known).falls and HeldOut(*known).improves
+    table = HeldOut(*known, least_fall=OF_TABLES)
+    assert not table.falls and not table.improves

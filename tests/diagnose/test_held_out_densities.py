@@ -19,7 +19,8 @@ KNOWN, SD = 7700.0, 90.0
 def refit(density: float) -> Any:
     features = [Feature("density", "", None, density, KNOWN, SD)]
     features += [Feature("frequency", test, key, 7.0, 7.0, 1e-3) for test, key in MODES]
-    return SimpleNamespace(z=None, hypothesis=SimpleNamespace(features=lambda _: features))
+    study = SimpleNamespace(stages=())
+    return SimpleNamespace(z=None, hypothesis=SimpleNamespace(features=lambda _: features, study=study))
 
 
 def answered(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -26,3 +27,11 @@ def refit(paired: int, named: int, unnamed: int) -> Any:
 )
 def test_as_many_named_modes_without_a_partner_as_no_accident_leaves(paired, named, unnamed, lacking) -> None:
     assert lacks_modes(refit(paired, named, unnamed)) is lacking
+
+
+def test_a_test_of_few_modes_lacks_them_whatever_other_tests_have() -> None:
+    """Four of thirteen of a wound stator had no partner, beside 34 of its stack that all had one."""
+    wound, stack = refit(9, 4, 0), refit(34, 0, 0)
+    features = [*wound.hypothesis.features(0), *(replace(f, test="s") for f in stack.hypothesis.features(0))]
+    both: Any = SimpleNamespace(hypothesis=SimpleNamespace(features=lambda _: features), z=np.zeros(1))
+    assert lacks_modes(both)

@@ -11,6 +11,7 @@ import pytest
 from small_stage import stage_of
 
 from statorhom.diagnose.broken_response import responses
+from statorhom.diagnose.features import MOST
 from statorhom.diagnose.lean import MOST_SD, lean_features, profile_lean
 from statorhom.diagnose.measured import MeasuredTest, PlaneShifts, Sideband
 from statorhom.diagnose.order_profiles import reference_profiles
@@ -98,7 +99,14 @@ def test_the_lean_of_a_shape_is_its_odd_part_over_the_even_one() -> None:
     (found,) = features(sideband(0.03), 5.0 * (1 + 0.02 * np.linspace(-1, 1, PLANES)))
     assert (found.kind, found.measured) == ("lean", pytest.approx(0.03))
     assert found.predicted == pytest.approx(0.02)
-    assert found.sd == pytest.approx(np.linalg.norm([1e-3, 0.004, 0.006]))
+    assert found.sd == pytest.approx(np.linalg.norm([1e-3, 0.004, 0.006, 0.003]))
+
+
+def test_a_lean_that_is_far_off_pulls_no_harder_than_one_that_is_hardly_off() -> None:
+    """Near (2, 2) a lump of 0.8 times its mass made (4, 0) lean by 0.13 instead of 0.01: 12 standard deviations."""
+    (found,) = features(sideband(0.01), 5.0 * (1 + 0.2 * np.linspace(-1, 1, PLANES)))
+    assert abs(found.measured - found.predicted) > 20 * found.sd
+    assert found.residual == pytest.approx(-MOST["lean"], rel=0.01)
 
 
 def test_noisy_shapes_and_those_counted_otherwise_have_none() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose.damping import JOINT, free_losses, loss_of, supported_losses
-from statorhom.diagnose.features import MOST_LOSS
+from statorhom.diagnose.features import MOST
 from statorhom.diagnose.levels import level_bases, level_features, slipped
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
@@ -54,7 +54,7 @@ def test_no_loss_factor_pulls_harder_than_its_scatter() -> None:
     test = MeasuredTest(0, "free", "free", rows(0.0, 3.0))
     found = free_losses(test, test.modes, KEYS, LOSSES)
     assert [f.kind for f in found] == ["loss", "loss"]
-    assert all(abs(f.residual) <= MOST_LOSS for f in found)
+    assert all(abs(f.residual) <= MOST["loss"] for f in found)
     # a mode that vanished keeps its row, without a pull
     (lost,) = free_losses(test, test.modes[:1], KEYS[:1], {})
     assert lost.lost and lost.residual == 0.0

@@ -1,5 +1,6 @@
 """Heights that mirror each other: the same but for the height, and as often mirrored back."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -7,7 +8,7 @@ import pytest
 
 from statorhom.diagnose import mirrored as module
 from statorhom.diagnose.explanations import Explanation
-from statorhom.diagnose.mirrored import at_likelier_height, height_is_told, mirrored
+from statorhom.diagnose.mirrored import at_fitting_height, at_likelier_height, height_is_told, mirrored
 from statorhom.diagnose.refit import Refit
 from statorhom.physics.parameter import EffectParameter
 
@@ -72,3 +73,26 @@ def test_without_shapes_the_height_stays_open(monkeypatch: pytest.MonkeyPatch) -
     here = lump(HEIGHT.internal(0.02))
     assert height(at_likelier_height(here)) == pytest.approx(0.02)
     assert not height_is_told(here, 0)
+
+
+@pytest.mark.parametrize(("leans", "expected"), [(True, 0.06), (False, 0.02)])
+def test_leans_of_shapes_lead_to_the_other_height(
+    monkeypatch: pytest.MonkeyPatch, leans: bool, expected: float
+) -> None:
+    """A refit at 16 mm of 97 left 57, of which three leans of the wrong sign were 48."""
+    here = lump(HEIGHT.internal(0.02)).refit
+    kinds = [SimpleNamespace(kind="lean" if leans else "split")]
+
+    def refitted(_: object, z: np.ndarray, worth: float) -> Refit:
+        assert worth == here.objective
+        return replace(here, z=z, objective=abs(HEIGHT.value(float(z[1])) - 0.06))
+
+    monkeypatch.setattr(module, "refitted", refitted)
+    monkeypatch.setattr(
+        module, "explained", lambda best, _: Explanation(best.hypothesis.candidates, best, 0.0)
+    )
+    monkeypatch.setattr(
+        module, "replace", lambda one, **more: one if "held" in more else replace(one, **more)
+    )
+    here.hypothesis.features = lambda _: kinds  # type: ignore[method-assign]
+    assert HEIGHT.value(float(at_fitting_height(here).z[1])) == pytest.approx(expected)

@@ -15,7 +15,8 @@ from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.errors import StatorhomError
 
 FloatArray = npt.NDArray[np.float64]
-EFFECT_STEP = 1e-2  # of internal coordinates
+# of internal coordinates: much less than a strong effect leaves open of its angle
+EFFECT_STEP = 1e-3
 
 
 @singledispatch

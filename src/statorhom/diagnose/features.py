@@ -33,9 +33,9 @@ TYPICAL_PART = 0.1
 UNRESOLVED = 0.6  # of the loss factor: standard deviation of a split that shows one mode alone
 SHIFT_OWN, SHIFT_PART = 5e-5, 0.08  # of pole shifts from plane to plane: tangential motion, scatter
 LINEAR, KNEE = 8.0, 3.0  # residuals grow with their logarithm beyond: one outlier does not bend all constants
-MOST_LOSS = (
-    3.0  # residual of a loss factor: a cable or a cushion can double one, and is no physics of the stator
-)
+# Residuals of a kind that say no more. A cable or a cushion can double a loss factor, and is no physics of the stator;
+# shapes of modes that come near each other mix at once, and what mixes is no guide to what causes it.
+MOST = {"loss": 3.0, "lean": 4.0}
 NUMBERED = -1  # in the place of n: a mode without a name, told by its row in the table
 USUAL_ORDERS = 6
 LOST, LOST_UNNAMED = 10.0, 4.0  # residual of a mode of a table that has no partner
@@ -70,10 +70,9 @@ class Feature:
     @property
     def residual(self) -> float:
         """In standard deviations, large ones held down."""
-        if self.kind == "loss":
-            raw = (self.measured - self.predicted) / self.sd
-            return MOST_LOSS * tanh(raw / MOST_LOSS)
-        return held_down((self.measured - self.predicted) / self.sd)
+        raw = (self.measured - self.predicted) / self.sd
+        most = MOST.get(self.kind)
+        return held_down(raw) if most is None else most * tanh(raw / most)
 
     @property
     def stray(self) -> bool:

@@ -6,13 +6,17 @@ enough, and nothing but their number tells that something is missing.
 
 from __future__ import annotations
 
+from collections import Counter
+
 from statorhom.diagnose.refit import Refit
 
-MANY, PART = 3, 0.2  # named modes without a partner, in all and of all: one or two may be images of others
+# Named modes of a test without a partner, in number and of all: one or two may be images of others.
+MANY, PART = 3, 0.2
 
 
 def lacks_modes(base: Refit) -> bool:
-    """Whether so many named modes of free tests have no partner that it is no accident."""
+    """Whether so many named modes of a free test have no partner that it is no accident."""
     found = [f for f in base.hypothesis.features(base.z) if f.kind == "frequency"]
-    lost = sum(f.stray for f in found)
-    return lost >= max(MANY, PART * len(found))
+    modes = Counter(f.test for f in found)
+    lost = Counter(f.test for f in found if f.stray)
+    return any(number >= max(MANY, PART * modes[test]) for test, number in lost.items())

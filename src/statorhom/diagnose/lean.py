@@ -10,6 +10,7 @@ of where the measuring planes really were: it is not used.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import hypot
 
 import numpy as np
 import numpy.typing as npt
@@ -24,6 +25,8 @@ FloatArray = npt.NDArray[np.float64]
 # Per order: sensors that stand half a degree off show that much of the other parity. And of the lean itself: it rests
 # on how far apart the two parities' frequencies are.
 OWN, PART = 0.002, 0.2
+# Of the leans of a test, root mean square: what a local cause bends and what of it shears nearly cancels in some mode.
+TYPICAL_PART = 0.1
 MOST_SD = 0.05  # shapes that are known no better tell nothing
 # Broad resonances show some of their neighbours, and what leans by more than this is no (r, 0) by itself.
 BROAD, MOST_LEAN = 0.03, 0.3
@@ -49,21 +52,23 @@ def lean_features(
     heights_m : where predicted profiles were taken (`PredictedMode.profile`).
     """
     shapes = {} if _moves(test) else {s.label: s for s in test.sidebands}
-    found = []
+    leans: dict[ModeKey, tuple[float, float, FloatArray]] = {}
     for key in dict.fromkeys(k for k in keys if k is not None and k[1:] == (0, 0)):
         rows = [m for m, k in zip(modes, keys, strict=True) if k == key and m.axial == 0 and _is_sharp(m)]
         seen = [s for m in rows if (s := shapes.get(m.label)) is not None and np.ptp(s.z_m) > 0]
         measured = _mean([_measured(s, key[0]) for s in seen])
-        if measured is None or abs(measured[0]) > MOST_LEAN:
-            continue
-        value, noise = measured
-        sd = float(np.linalg.norm([noise, OWN * max(1, key[0]), PART * value]))
+        if measured is not None and abs(measured[0]) <= MOST_LEAN:
+            leans[key] = (*measured, seen[0].z_m)
+    typical = float(np.sqrt(np.mean([value**2 for value, _, _ in leans.values()]))) if leans else 0.0
+    found = []
+    for key, (value, noise, z_m) in leans.items():
         mode = predicted.get(key)
         if mode is None or mode.profile is None:
             # as many features as with it: a partner that vanishes says nothing of shapes
             found.append(Feature("lean", test.name, key, 0.0, 0.0, 1.0, lost=True))
             continue
-        told = profile_lean(mode.profile, np.array(heights_m), seen[0].z_m)
+        sd = hypot(noise, OWN * max(1, key[0]), PART * value, TYPICAL_PART * typical)
+        told = profile_lean(mode.profile, np.array(heights_m), z_m)
         found.append(Feature("lean", test.name, key, value, told, sd))
     return found
 

@@ -11,8 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from statorhom.diagnose.explanations import Explanation
+from statorhom.diagnose.explanations import Explanation, explained, refitted
 from statorhom.diagnose.opposite import LEAST_SHAPES, LEAST_WORSE, SURE, equivalent_angles, left_of_all
+from statorhom.diagnose.refit import Refit
 from statorhom.physics.parameter import EffectParameter
 
 
@@ -23,6 +24,23 @@ def at_likelier_height(explanation: Explanation) -> Explanation:
         if other is not None and (worse := _worse(explanation, other, number)) is not None and worse[0] < 0:
             explanation = other
     return explanation
+
+
+def at_fitting_height(best: Refit) -> Refit:
+    """An optimum, or the one with effects on the other side of the middle where the leans of shapes prefer that.
+
+    A refit does not get from one to the other: leans that have the wrong sign hardly say anything of where to go.
+    """
+    if not any(f.kind == "lean" for f in best.hypothesis.features(best.z)):
+        return best
+    for number in range(len(best.hypothesis.candidates)):
+        other = mirrored(explained(best, {}), number)
+        if other is None:
+            continue
+        there = refitted(replace(best.hypothesis, held=None), other.refit.z, best.objective)
+        if there is not None and there.objective < best.objective:
+            best = there
+    return best
 
 
 def height_is_told(explanation: Explanation, number: int) -> bool:

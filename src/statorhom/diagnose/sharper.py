@@ -23,6 +23,7 @@ from statorhom.diagnose.explanations import (
     widened,
 )
 from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.diagnose.mirrored import at_fitting_height
 from statorhom.diagnose.prediction import acted_materials
 from statorhom.diagnose.refit import Refit, evaluated
 from statorhom.diagnose.stage_model import mesh_error, with_reference
@@ -57,7 +58,7 @@ def sharpened(explanation: Explanation, *, leads: bool = True) -> Explanation:
     found = replace(found, settled=True)
     if found.adequacy_but_one > WELL or not (leads or _keeps_symmetry(found.refit)):
         return found
-    deeper = _on_other_sides(found.refit)
+    deeper = at_fitting_height(_on_other_sides(found.refit))
     return found if deeper is found.refit else _sharpened(replace(found, refit=deeper))
 
 

@@ -21,6 +21,7 @@ from statorhom.diagnose.explanations import (
     through_wide_valleys,
 )
 from statorhom.diagnose.from_the_best import from_the_best
+from statorhom.diagnose.mirrored import at_fitting_height
 from statorhom.diagnose.mislabelled import worth_trying
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.refit_starts import (
@@ -169,7 +170,7 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: floa
     elif best is not None and costs_little and not far and best.objective > known:
         # beside a poor model the strongest effects are sought all over the prior in any case
         others = _elsewhere(starts[0])
-    return min([best, *others], key=_objective) if best is not None else None
+    return at_fitting_height(min([best, *others], key=_objective)) if best is not None else None
 
 
 def _elsewhere(start: Start) -> list[Refit]:
