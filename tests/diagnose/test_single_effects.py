@@ -79,12 +79,15 @@ def test_what_leaves_more_than_the_declared_model_is_no_optimum(monkeypatch: pyt
     assert tried(monkeypatch, 150.0, known=180.0) == (150.0, ["straight"])
 
 
-def sought(monkeypatch: pytest.MonkeyPatch, near: float, *, price: int = CHEAP, **named: Any) -> float:
+def sought(
+    monkeypatch: pytest.MonkeyPatch, near: float, *, price: int = CHEAP, holds: bool = False, **named: Any
+) -> float:
     """Objective of the best refit where the near optima leave `near`, and the one of a far valley 20."""
     far_away: Any = SimpleNamespace(hypothesis="far away", z=None)
     monkeypatch.setattr(module, "price", lambda _: price)
     monkeypatch.setattr(module, "is_poor", lambda _: False)
     monkeypatch.setattr(module, "at_fitting_height", lambda best: best)
+    monkeypatch.setattr(module, "_holds", lambda _: holds)
     monkeypatch.setattr(module, "narrowed_starts", lambda _: [far_away])
     monkeypatch.setattr(module, "_through", lambda _: SimpleNamespace(objective=near))
     monkeypatch.setattr(module, "_rival", lambda *_: SimpleNamespace(objective=near))
@@ -108,6 +111,8 @@ def test_an_effect_that_leaves_more_than_its_absence_is_sought_all_over_the_prio
     # a solution is dear, or the strongest are sought everywhere in any case
     assert sought(monkeypatch, 450.0, price=MIDDLING) == 450.0
     assert sought(monkeypatch, 450.0, far=True) == 450.0
+    # a rigid support is none of the elastic ones: these may well leave more
+    assert sought(monkeypatch, 450.0, holds=True) == 450.0
 
 
 @pytest.mark.parametrize(("quick", "found"), [(150.0, 20.0), (170.0, 170.0)])

@@ -169,8 +169,13 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: floa
         others = _beside_later_steps(best)
     elif best is not None and costs_little and not far and best.objective > known:
         # beside a poor model the strongest effects are sought all over the prior in any case
-        others = _elsewhere(starts[0])
+        others = [] if _holds(starts[0]) else _elsewhere(starts[0])
     return at_fitting_height(min([best, *others], key=_objective)) if best is not None else None
+
+
+def _holds(start: Start) -> bool:
+    """Whether the last effect is a support's: its stiffest one is none that is rigid, so that it may explain less."""
+    return bool(start.hypothesis.actions(start.z)[len(start.hypothesis.candidates) - 1].supports)
 
 
 def _elsewhere(start: Start) -> list[Refit]:

@@ -96,9 +96,10 @@ def supported_test(
     keys = held[-1] if held else declared
     assert keys is not None
     here = [(a, m) for a, m in zip(actions, mark, strict=True) if a.touches(stage.name, test.name)]
-    parts = [(attached(stage, a, m), m, test.support in a.supports) for a, m in here]
-    seen = tuple(m for part, m, held_otherwise in parts if part or held_otherwise)
-    more = [c for part, _, _ in parts for c in part]
+    parts = [(attached(stage, a, m), m) for a, m in here]
+    # a support is known by its stiffness: what it dissipates moves no mode
+    seen = (repr(keys), *(m for part, m in parts if part))
+    more = [c for part, _ in parts for c in part]
     return supported_reference(stage, test, keys, more, seen, shapes)
 
 
