@@ -38,6 +38,7 @@ LINEAR, KNEE = 8.0, 3.0  # residuals grow with their logarithm beyond: one outli
 MOST = {"loss": 3.0, "lean": 4.0}
 NUMBERED = -1  # in the place of n: a mode without a name, told by its row in the table
 USUAL_ORDERS = 6
+LINES = 2  # of a doublet
 LOST, LOST_UNNAMED = 10.0, 4.0  # residual of a mode of a table that has no partner
 TORN = 0.02  # typical split of a test in which names hardly say more than that there is a mode
 
@@ -132,7 +133,7 @@ def free_features(
     typical = _typical_split(test, [rows for key, rows in by_key.items() if key is not None])
     for key, rows in by_key.items():
         if key is None:
-            found += _lost(test, rows, typical)
+            found += _lost(test, _without_images(rows, modes) if test.recorded else rows, typical)
         elif key in predicted:
             own = hypot(own_sd(error, key), discrepancy)
             found += _mode_features(test, rows, predicted[key], scatter, own, TYPICAL_PART * typical)
@@ -175,6 +176,26 @@ def _lost(test: MeasuredTest, rows: Sequence[MeasuredMode], typical: float) -> l
         )
         for m in kept
     ]
+
+
+def _without_images(lost: Sequence[MeasuredMode], modes: Sequence[MeasuredMode]) -> list[MeasuredMode]:
+    """Lost lines but those that stand beside two of their name within a resonance: no stator has three lines there."""
+    missing = {m.label for m in lost}
+    kept: list[MeasuredMode] = []
+    for mode in lost:
+        near = [m for m in modes if (m.order, m.axial) == (mode.order, mode.axial) and _overlap(m, mode)]
+        own = {m.label for m in near}
+        taken = sum(m.label not in missing for m in near) + sum(m.label in own for m in kept)
+        if taken < LINES:
+            kept.append(mode)
+    return kept
+
+
+def _overlap(one: MeasuredMode, other: MeasuredMode) -> bool:
+    """Whether two lines lie within the half-power bandwidth of one."""
+    return abs(one.frequency_hz - other.frequency_hz) < (
+        other.loss_factor or 0.0
+    ) * other.frequency_hz / 2 or (one.label == other.label)
 
 
 def with_rows(found: Sequence[Feature], modes: Sequence[MeasuredMode], keys: Keys) -> list[Feature]:
