@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose.assignment import assigned
-from statorhom.diagnose.features import LOST, LOST_UNNAMED, free_features
+from statorhom.diagnose.feature import LOST, LOST_UNNAMED
+from statorhom.diagnose.features import free_features
 from statorhom.diagnose.measured import MeasuredSplit, MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.identify.model_error import ModelError

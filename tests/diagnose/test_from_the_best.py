@@ -38,7 +38,7 @@ def again(monkeypatch: pytest.MonkeyPatch, best_at: list[float], price: int) -> 
 
     monkeypatch.setattr(module, "blank", lambda *_: hypothesis)
     monkeypatch.setattr(module, "price", lambda _: price)
-    monkeypatch.setattr(module, "refit_objective", lambda *_: 0.0)
+    monkeypatch.setattr(module, "nearest_first", lambda _, points: points)
     monkeypatch.setattr(module, "refitted", refitted)
     base: Any = SimpleNamespace(z=np.zeros(2), hypothesis=hypothesis)
     scan: Any = SimpleNamespace(

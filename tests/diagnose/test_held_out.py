@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from statorhom.diagnose.features import LOST, LOST_UNNAMED, Feature
+from statorhom.diagnose.feature import LOST, LOST_UNNAMED, Feature
 from statorhom.diagnose.held_out import OF_TABLES, HeldOut, lacked, left_out_errors
 
 TOLD = (

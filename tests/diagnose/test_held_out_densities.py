@@ -9,7 +9,7 @@ import pytest
 
 import statorhom.diagnose.held_out as module
 from statorhom.diagnose.explanations import Explanation
-from statorhom.diagnose.features import Feature
+from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.held_out import WEIGHED, _Error, held_out
 
 MODES = tuple(("wound-free", (r, 0, 0)) for r in range(2, 8))

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from statorhom.diagnose.features import LOST, LOST_UNNAMED, Feature
+from statorhom.diagnose.feature import LOST, LOST_UNNAMED, Feature
 from statorhom.diagnose.lacking_modes import lacks_modes
 
 

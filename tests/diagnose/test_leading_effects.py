@@ -22,7 +22,10 @@ def base(log_evidence: float, objective: float = 1000.0, constants: int = 2) -> 
 
 def explanation(label: str, log_evidence: float, adequacy: float = 0.0) -> Any:
     return SimpleNamespace(
-        candidates=(SimpleNamespace(label=label),), log_evidence=log_evidence, adequacy_but_one=adequacy
+        candidates=(SimpleNamespace(label=label),),
+        label=label,
+        log_evidence=log_evidence,
+        adequacy_but_one=adequacy,
     )
 
 

@@ -11,7 +11,7 @@ import pytest
 from small_stage import stage_of
 
 from statorhom.diagnose.broken_response import responses
-from statorhom.diagnose.features import MOST
+from statorhom.diagnose.feature import MOST
 from statorhom.diagnose.lean import MOST_SD, lean_features, profile_lean
 from statorhom.diagnose.measured import MeasuredTest, PlaneShifts, Sideband
 from statorhom.diagnose.order_profiles import reference_profiles

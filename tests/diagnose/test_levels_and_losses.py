@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose.damping import JOINT, free_losses, loss_of, supported_losses
-from statorhom.diagnose.features import MOST
+from statorhom.diagnose.feature import MOST
 from statorhom.diagnose.levels import level_bases, level_features, slipped
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.diagnose.constants import Constants
-from statorhom.diagnose.features import Feature
+from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.model.convergence import ModeKey
 from statorhom.physics.action import Action

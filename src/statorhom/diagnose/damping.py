@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from statorhom.diagnose.features import Feature
+from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import (
     PredictedMode,

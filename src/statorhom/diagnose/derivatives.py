@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
-from statorhom.diagnose.features import Feature
+from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.frequency_slopes import by_frequency, slopes_of
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.errors import StatorhomError

@@ -13,7 +13,7 @@ from scipy.stats import chi2
 from typing_extensions import TypeVar
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
-from statorhom.diagnose.features import Feature
+from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.refit import H, Refit, refit
 from statorhom.errors import StatorhomError
 from statorhom.model.convergence import ModeKey
@@ -54,6 +54,11 @@ class Explanation(Generic[H]):
     def effects(self) -> tuple[str, ...]:
         """Names."""
         return tuple(c.effect for c in self.candidates)
+
+    @property
+    def label(self) -> str:
+        """Of its candidates."""
+        return " + ".join(c.label for c in self.candidates)
 
     @property
     def set_aside(self) -> frozenset[tuple[str, ModeKey | None]]:

@@ -7,12 +7,14 @@ coordinate of the constants) or have by themselves, and a lamination that differ
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import hypot, log, tanh
 
 import numpy as np
 
 from statorhom.diagnose.assignment import Keys
+from statorhom.diagnose.feature import LOST, Feature
+from statorhom.diagnose.lost_lines import lost_lines
 from statorhom.diagnose.measured import MeasuredSplit, MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.diagnose.sensor_response import SensorResponse
@@ -32,78 +34,6 @@ SPLIT_PART = 0.05  # of a split: shape and foot of what causes it are not known
 TYPICAL_PART = 0.1
 UNRESOLVED = 0.6  # of the loss factor: standard deviation of a split that shows one mode alone
 SHIFT_OWN, SHIFT_PART = 5e-5, 0.08  # of pole shifts from plane to plane: tangential motion, scatter
-LINEAR, KNEE = 8.0, 3.0  # residuals grow with their logarithm beyond: one outlier does not bend all constants
-# Residuals of a kind that say no more. A cable or a cushion can double a loss factor, and is no physics of the stator;
-# shapes of modes that come near each other mix at once, and what mixes is no guide to what causes it.
-MOST = {"loss": 3.0, "lean": 4.0}
-NUMBERED = -1  # in the place of n: a mode without a name, told by its row in the table
-USUAL_ORDERS = 6
-LINES = 2  # of a doublet
-LOST, LOST_UNNAMED = 10.0, 4.0  # residual of a mode of a table that has no partner
-TORN = 0.02  # typical split of a test in which names hardly say more than that there is a mode
-
-
-@dataclass(frozen=True)
-class Feature:
-    """One residual.
-
-    Parameters
-    ----------
-    kind : "frequency", "split", "shift", "lean", "shape", "density", "loss", "level", "level_loss".
-    test : of which test, empty for densities.
-    key : of which mode.
-    measured, predicted : ln f, relative split, relative shift, kg/m³, ln η, or the change of ln f or ln η from the
-        lowest force level.
-    sd : of their difference.
-    lost : whether the model has no such mode: the residual is a penalty.
-    rows : labels of the measured modes that it is of; empty where it is of none, or they are named by the key alone.
-    """
-
-    kind: str
-    test: str
-    key: ModeKey | None
-    measured: float
-    predicted: float
-    sd: float
-    lost: bool = False
-    rows: tuple[str, ...] = ()
-
-    @property
-    def residual(self) -> float:
-        """In standard deviations, large ones held down."""
-        raw = (self.measured - self.predicted) / self.sd
-        most = MOST.get(self.kind)
-        return held_down(raw) if most is None else most * tanh(raw / most)
-
-    @property
-    def stray(self) -> bool:
-        """Whether it stands for a named mode that has no partner."""
-        return self.lost and self.measured > LOST_UNNAMED
-
-    @property
-    def mode(self) -> tuple[int, ...] | None:
-        """As files name it: (r, n), or the row of a mode without a name."""
-        if self.key is None:
-            return None
-        return self.key[:1] if self.key[1] == NUMBERED else self.key[:2]
-
-    @property
-    def group(self) -> tuple[str, ModeKey | None]:
-        """What is held out together: all features of one named mode of a test."""
-        return self.test, self.key
-
-    @property
-    def observed(self) -> frozenset[tuple[str, str | ModeKey | None]]:
-        """What was measured of it, whatever partner an explanation finds for that."""
-        return frozenset((self.test, row) for row in self.rows) or frozenset([self.group])
-
-
-def held_down(residual: float) -> float:
-    """The residual itself up to `LINEAR`, then its logarithm."""
-    size = abs(residual)
-    if size <= LINEAR:
-        return residual
-    return float(np.sign(residual) * (LINEAR + KNEE * np.log1p((size - LINEAR) / KNEE)))
 
 
 def free_features(
@@ -133,7 +63,7 @@ def free_features(
     typical = _typical_split(test, [rows for key, rows in by_key.items() if key is not None])
     for key, rows in by_key.items():
         if key is None:
-            found += _lost(test, _without_images(rows, modes) if test.recorded else rows, typical)
+            found += lost_lines(test, rows, modes, typical)
         elif key in predicted:
             own = hypot(own_sd(error, key), discrepancy)
             found += _mode_features(test, rows, predicted[key], scatter, own, TYPICAL_PART * typical)
@@ -154,48 +84,6 @@ def _vanished(test: MeasuredTest, rows: Sequence[MeasuredMode], key: ModeKey) ->
         Feature(kind, test.name, key, 0.0, LOST if i < len(rows) else 0.0, 1.0, lost=True, rows=labels)
         for i, kind in enumerate(kinds)
     ]
-
-
-def _lost(test: MeasuredTest, rows: Sequence[MeasuredMode], typical: float) -> list[Feature]:
-    """Modes without a partner; what a recording shows beyond the usual orders may be an image of another mode.
-
-    What parts the lines of doublets by much mixes orders too, and a line may bear the name of any of them.
-    """
-    named = LOST_UNNAMED + (LOST - LOST_UNNAMED) * float(np.exp(-typical / TORN))
-    kept = [m for m in rows if not test.recorded or (m.order is not None and m.order <= USUAL_ORDERS)]
-    return [
-        Feature(
-            "frequency",
-            test.name,
-            None,
-            named if m.order is not None else LOST_UNNAMED,
-            0.0,
-            1.0,
-            lost=True,
-            rows=(m.label,),
-        )
-        for m in kept
-    ]
-
-
-def _without_images(lost: Sequence[MeasuredMode], modes: Sequence[MeasuredMode]) -> list[MeasuredMode]:
-    """Lost lines but those that stand beside two of their name within a resonance: no stator has three lines there."""
-    missing = {m.label for m in lost}
-    kept: list[MeasuredMode] = []
-    for mode in lost:
-        near = [m for m in modes if (m.order, m.axial) == (mode.order, mode.axial) and _overlap(m, mode)]
-        own = {m.label for m in near}
-        taken = sum(m.label not in missing for m in near) + sum(m.label in own for m in kept)
-        if taken < LINES:
-            kept.append(mode)
-    return kept
-
-
-def _overlap(one: MeasuredMode, other: MeasuredMode) -> bool:
-    """Whether two lines lie within the half-power bandwidth of one."""
-    return abs(one.frequency_hz - other.frequency_hz) < (
-        other.loss_factor or 0.0
-    ) * other.frequency_hz / 2 or (one.label == other.label)
 
 
 def with_rows(found: Sequence[Feature], modes: Sequence[MeasuredMode], keys: Keys) -> list[Feature]:

@@ -14,7 +14,7 @@ from typing import cast
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.diagnose.features import Feature
+from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.hypothesis import Hypothesis, Told
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import (

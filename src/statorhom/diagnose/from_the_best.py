@@ -11,10 +11,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from statorhom.diagnose.explanations import Explanation, blank, explained, refitted
-from statorhom.diagnose.refit import Refit, refit_objective
+from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.refit_starts import CHEAP, Start, price
 from statorhom.diagnose.scan import Scan, Signature
-from statorhom.errors import StatorhomError
+from statorhom.diagnose.valleys import nearest_first
 
 MOVED = 1.0  # prior standard deviations between the constants of two valleys
 RIVAL = 20.0  # of the objective: what does not come so near to the best is given up
@@ -36,20 +36,16 @@ def from_the_best(
     constants = len(base.z)
     if best is None or np.linalg.norm(best.refit.z[:constants] - base.z) <= MOVED:
         return list(explanations)
-    known = {_label(e): e for e in explanations}
+    known = {e.label: e for e in explanations}
     own: dict[str, list[Signature]] = {}
     for signature in found.signatures:
         own.setdefault(signature.candidate.label, []).append(signature)
     for label, signatures in own.items():
-        if label != _label(best) and (again := _beside(base, best, signatures)) is not None:
+        if label != best.label and (again := _beside(base, best, signatures)) is not None:
             other = explained(again, counts)
             if label not in known or other.log_evidence > known[label].log_evidence:
                 known[label] = other
     return list(known.values())
-
-
-def _label(explanation: Explanation) -> str:
-    return explanation.candidates[-1].label
 
 
 def _beside(base: Refit, best: Explanation, signatures: Sequence[Signature]) -> Refit | None:
@@ -59,13 +55,5 @@ def _beside(base: Refit, best: Explanation, signatures: Sequence[Signature]) -> 
     points = [np.r_[best.refit.z[: len(base.z)], s.start] for s in signatures]
     if price((0.0, [Start(hypothesis, points[0])])) != CHEAP or hypothesis.actions(points[0])[-1].dimensions:
         return None
-    scored = []
-    for z in points:
-        try:
-            scored.append((refit_objective(hypothesis, z), z))
-        except StatorhomError:
-            continue
-    if not scored:
-        return None
-    nearest = min(scored, key=lambda pair: pair[0])[1]
-    return refitted(hypothesis, nearest, best.refit.objective + RIVAL)
+    nearest = nearest_first(hypothesis, points)[:1]
+    return refitted(hypothesis, nearest[0], best.refit.objective + RIVAL) if nearest else None

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from statorhom.diagnose.explanations import Explanation, explained
-from statorhom.diagnose.features import Feature
+from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.held_out import Group, refit_held
 from statorhom.diagnose.refit import Refit
 from statorhom.errors import StatorhomError

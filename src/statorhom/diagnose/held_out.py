@@ -12,7 +12,7 @@ from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.assignment import NEAR
 from statorhom.diagnose.derivatives import jacobian
 from statorhom.diagnose.explanations import Explanation
-from statorhom.diagnose.features import Feature
+from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.refit import Refit, refit
 from statorhom.errors import StatorhomError
 from statorhom.identify.stage_problem import LABELLED_GATE, PAIRING_SD

@@ -21,7 +21,8 @@ from statorhom.diagnose.damping import (
     with_shares,
 )
 from statorhom.diagnose.dimension_response import changed_geometry, step_of
-from statorhom.diagnose.features import Feature, free_features, loading, shift_features, with_rows
+from statorhom.diagnose.feature import Feature
+from statorhom.diagnose.features import free_features, loading, shift_features, with_rows
 from statorhom.diagnose.followed_modes import Names, names_of
 from statorhom.diagnose.lean import lean_features
 from statorhom.diagnose.levels import (

@@ -45,7 +45,7 @@ class Leading:
 
         No signature stands for another valley, nor for another name: their evidence does.
         """
-        if renames_alone(best) or _label(best) in self.elsewhere:
+        if renames_alone(best) or best.label in self.elsewhere:
             over = best.log_evidence - nothing(self.base.refit).log_evidence
             return float(np.exp(-max(0.0, over)))
         return self.scan.p_value
@@ -107,13 +107,6 @@ def _joined(before: Leading, now: Leading) -> Leading:
     least = nothing(now.base.refit).log_evidence + OVER_NOTHING
     best: dict[str, Explanation] = {}
     for e in sorted((*before.found, *now.found), key=lambda e: -e.log_evidence):
-        best.setdefault(_label(e), e)
-    elsewhere = frozenset(
-        label for e in before.found if best[label := _label(e)] is e and e.log_evidence > least
-    )
+        best.setdefault(e.label, e)
+    elsewhere = frozenset(e.label for e in before.found if best[e.label] is e and e.log_evidence > least)
     return Leading(now.base, now.scan, now.unpaired, tuple(best.values()), elsewhere)
-
-
-def _label(explanation: Explanation) -> str:
-    """Of its candidates."""
-    return " + ".join(c.label for c in explanation.candidates)

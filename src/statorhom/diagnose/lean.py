@@ -15,7 +15,7 @@ from math import hypot
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.diagnose.features import Feature
+from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.measured import MeasuredTest, Sideband
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.model.convergence import ModeKey

@@ -12,7 +12,8 @@ from dataclasses import replace
 import numpy as np
 
 from statorhom.diagnose.damping import mean_loss
-from statorhom.diagnose.features import Feature, measured_sd
+from statorhom.diagnose.feature import Feature
+from statorhom.diagnose.features import measured_sd
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.diagnose.stage_model import StageModel

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from statorhom.diagnose.explanations import Explanation
-from statorhom.diagnose.features import Feature
+from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.model.broken.change import Change

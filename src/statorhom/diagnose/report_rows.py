@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from statorhom.diagnose.explanations import Explanation
-from statorhom.diagnose.features import Feature
+from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.held_out import LACKING, lacked
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.sides import one_by_one, opposite_location

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis, ModelledStudy
-from statorhom.diagnose.features import Feature
+from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.refit import Refit
 from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from statorhom.diagnose.features import LOST, Feature, measured_sd
+from statorhom.diagnose.feature import LOST, Feature
+from statorhom.diagnose.features import measured_sd
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.diagnose.stage_model import StageModel

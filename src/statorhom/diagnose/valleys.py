@@ -74,15 +74,8 @@ def wide_optima(
         If no point could be fitted.
     """
     coarse = replace(blank, discrepancy=COARSE)
-    scored = []
-    for z in trials:
-        try:
-            scored.append((refit_objective(coarse, z), z))
-        except StatorhomError:
-            continue
-    scored.sort(key=lambda pair: pair[0])
     found: list[Refit[_H]] = []
-    for number, z in enumerate(_apart([z for _, z in scored], most or starts)):
+    for number, z in enumerate(_apart(nearest_first(coarse, trials), most or starts)):
         if number >= starts and any(_fits(r) for r in found):
             break
         # what promises nothing beside the best so far is not followed
@@ -91,6 +84,17 @@ def wide_optima(
     if not found:
         raise IdentificationError(NO_START)
     return _different(found)
+
+
+def nearest_first(hypothesis: AnyHypothesis, points: Sequence[np.ndarray]) -> list[np.ndarray]:
+    """Points by what a refit would have to make small there; what no body has is left out."""
+    scored = []
+    for z in points:
+        try:
+            scored.append((refit_objective(hypothesis, z), z))
+        except StatorhomError:
+            continue
+    return [z for _, z in sorted(scored, key=lambda pair: pair[0])]
 
 
 def _fits(found: Refit[_H]) -> bool:

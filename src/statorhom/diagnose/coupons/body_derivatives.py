@@ -15,7 +15,7 @@ from statorhom.diagnose.coupons.body_hypothesis import BodyHypothesis
 from statorhom.diagnose.coupons.body_prediction import PredictedBody
 from statorhom.diagnose.coupons.body_stage import BodyStage
 from statorhom.diagnose.derivatives import difference, jacobian
-from statorhom.diagnose.features import Feature
+from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.frequency_slopes import slopes_of
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.errors import StatorhomError

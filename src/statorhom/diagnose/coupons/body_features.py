@@ -12,7 +12,8 @@ import numpy.typing as npt
 from statorhom.diagnose.coupons.body_pairing import Partners
 from statorhom.diagnose.coupons.body_prediction import PredictedBody
 from statorhom.diagnose.coupons.body_stage import BodyStage
-from statorhom.diagnose.features import LOST_UNNAMED, NUMBERED, SHIFT_OWN, SHIFT_PART, Feature, measured_sd
+from statorhom.diagnose.feature import LOST_UNNAMED, NUMBERED, Feature
+from statorhom.diagnose.features import SHIFT_OWN, SHIFT_PART, measured_sd
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.model.convergence import ModeKey
 

@@ -14,7 +14,7 @@ from statorhom.diagnose.coupons.body_pairing import Partners, body_partners, mis
 from statorhom.diagnose.coupons.body_prediction import PredictedBody, predicted_body
 from statorhom.diagnose.coupons.body_stage import BodyStage
 from statorhom.diagnose.coupons.body_study import BodyStudy
-from statorhom.diagnose.features import Feature
+from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.measured import MeasuredTest
 
 FloatArray = npt.NDArray[np.float64]
