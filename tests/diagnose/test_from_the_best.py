@@ -29,8 +29,9 @@ def explanation(label: str, z: list[float], evidence: float) -> Explanation:
 
 def again(monkeypatch: pytest.MonkeyPatch, best_at: list[float], price: int) -> dict[str, float]:
     """Log evidences afterwards, where "other" stands at -50 and would gain 45 from the best one's constants."""
-    actions = [SimpleNamespace(dimensions={})]
-    hypothesis: Any = SimpleNamespace(candidates=(), actions=lambda _: actions)
+    # the last action is one that the study declares
+    actions = [SimpleNamespace(dimensions={}), SimpleNamespace(dimensions={"bore": 1.0})]
+    hypothesis: Any = SimpleNamespace(candidates=("other",), actions=lambda _: actions)
 
     def refitted(_: Any, z: np.ndarray, worth: float) -> Any:
         assert z[:2].tolist() == best_at[:2] and worth == 5.0 + module.RIVAL

@@ -53,7 +53,8 @@ def _beside(base: Refit, best: Explanation, signatures: Sequence[Signature]) -> 
     candidate = signatures[0].candidate
     hypothesis = blank(best.refit.hypothesis, (*base.hypothesis.candidates, candidate))
     points = [np.r_[best.refit.z[: len(base.z)], s.start] for s in signatures]
-    if price((0.0, [Start(hypothesis, points[0])])) != CHEAP or hypothesis.actions(points[0])[-1].dimensions:
+    own = hypothesis.actions(points[0])[len(hypothesis.candidates) - 1]
+    if price((0.0, [Start(hypothesis, points[0])])) != CHEAP or own.dimensions:
         return None
     nearest = nearest_first(hypothesis, points)[:1]
     return refitted(hypothesis, nearest[0], best.refit.objective + RIVAL) if nearest else None
