@@ -50,12 +50,20 @@ def test_near_rivals_get_models_of_their_own(monkeypatch: pytest.MonkeyPatch) ->
         led.append((e.effects, leads))
         return replace(e, log_evidence=e.log_evidence + better[e.effects])
 
+    def deepest(own: Any, *_: object) -> Any:
+        deeper.append(own.effects)
+        return own
+
+    deeper: list[Any] = []
     monkeypatch.setattr(sharper, "sharpened", sharpened)
+    monkeypatch.setattr(sharper, "_deepest", deepest)
     monkeypatch.setattr(sharper, "_settled", lambda refit, _: replace(refit, settled=True))
     found: list[Any] = [Said(LUMP, 0.0), Said(STRIP, -8.0), Said(WAVE, -30.0)]
     now = sharper.refined(found, [], {})
     assert [e.effects for e in now] == [STRIP, LUMP, WAVE]
     assert led == [(LUMP, True), (STRIP, False)]
+    # a strip that stood in a side valley beside a suspension that explained all was left out of the answer
+    assert deeper == [STRIP]
     assert [e.settled for e in now] == [True, True, False]
 
 

@@ -107,7 +107,8 @@ def refined(
     def better(e: Explanation) -> Explanation:
         leads = e is explanations[0]
         own = sharpened(e, leads=leads)
-        return _settled((own if adequate else _deepest(own, valleys, counts)).refit, counts)
+        # what leads is good enough where it explains all; a rival so near has to be seen at its best
+        return _settled((own if adequate and leads else _deepest(own, valleys, counts)).refit, counts)
 
     found = [better(e) if i < MOST and e.log_evidence > least else e for i, e in enumerate(explanations)]
     return sorted(found, key=lambda e: -e.log_evidence)
