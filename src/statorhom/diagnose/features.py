@@ -88,9 +88,10 @@ def _vanished(test: MeasuredTest, rows: Sequence[MeasuredMode], key: ModeKey) ->
 
 def with_rows(found: Sequence[Feature], modes: Sequence[MeasuredMode], keys: Keys) -> list[Feature]:
     """Features of a free test with the labels of the measured modes that they are of."""
+    # frequencies and splits have theirs: in wide valleys there is nothing else
     labels = {
         key: tuple(m.label for m, k in zip(modes, keys, strict=True) if k == key)
-        for key in set(keys) - {None}
+        for key in {f.key for f in found if not f.rows} - {None}
     }
     return [f if f.rows else replace(f, rows=labels.get(f.key, ())) for f in found]
 
@@ -98,8 +99,7 @@ def with_rows(found: Sequence[Feature], modes: Sequence[MeasuredMode], keys: Key
 def own_sd(error: ModelError, key: ModeKey) -> float:
     """Relative model error of a mode that others do not share: what of the mesh's is not in their common pattern."""
     correction = error.factor(key) - 1.0
-    parts = [OWN, OWN_PART * correction, OWN_SQUARE * correction**2, error.borrowed(key)]
-    return hypot(*parts)
+    return hypot(OWN, OWN_PART * correction, OWN_SQUARE * correction**2, error.borrowed(key))
 
 
 def measured_sd(mode: MeasuredMode) -> float:
@@ -126,12 +126,13 @@ def _mode_features(
     pairing = _split_of(test, rows)
     mean = (log(low.frequency_hz) + log(high.frequency_hz)) / 2
     sd = hypot(measured_sd(low), measured_sd(high)) / 2
-    if test.recorded and pairing is None:
+    unresolved = test.recorded and pairing is None
+    if unresolved:
         # images of one mode, or a doublet whose angles do not show: somewhere between
         sd = hypot(sd, log(high.frequency_hz / low.frequency_hz) / 2)
     whole = hypot(sd, own)
     found = [Feature("frequency", test.name, key, mean, predicted.log_f, whole, rows=labels)]
-    if test.recorded and pairing is None:
+    if unresolved:
         return found
     if pairing is not None:
         sd = _split_sd(pairing.sd, abs(pairing.relative), shape)
