@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -15,6 +15,7 @@ from statorhom.conceal.truth import Case, TrueMaterial
 from statorhom.geometry.stator import stator_geometry
 from statorhom.materials.density import REGION_OF_STEP, Weighing, densities
 from statorhom.materials.symmetry import SYMMETRIES, constant_names
+from statorhom.materials.typical import prior_range
 from statorhom.mesh import MeshDensity, mesh_step
 from statorhom.model.affine import AffineModel, Material, Materials, assemble, hooke_coefficients
 from statorhom.model.assembly import HOOKE_ENTRIES
@@ -23,6 +24,7 @@ from statorhom.model.stator_mode import StatorMode
 from statorhom.study.geometry_file import GeometryFile
 from statorhom.study.study_file import StudyFile
 
+Z95 = 1.6449  # of a normal distribution: between its middle and its 95 % quantile
 STEP = 1e-4  # relative, for derivatives by constants
 
 Key = tuple[int, int, int]
@@ -36,11 +38,34 @@ class DeclaredStage:
     ----------
     model, materials : of the half pitch.
     constants : region → its source's name, which tells steps apart, symmetry and constants.
+    spreads : "source.constant" → standard deviation of its logarithm before any measurement, of what is typical.
     """
 
     model: AffineModel
     materials: Materials
     constants: Mapping[str, tuple[str, str, Mapping[str, float]]]
+    spreads: Mapping[str, float]
+
+    def changed(self, changes: Mapping[str, float]) -> DeclaredStage:
+        """With other constants.
+
+        Parameters
+        ----------
+        changes : "source.constant" → change of its logarithm; what is not there stays.
+
+        Raises
+        ------
+        StatorhomError
+            If no material has such constants.
+        """
+        constants, materials = {}, {}
+        for region, (source, symmetry, values) in self.constants.items():
+            moved = {n: v * float(np.exp(changes.get(f"{source}.{n}", 0.0))) for n, v in values.items()}
+            constants[region] = source, symmetry, moved
+            materials[region] = Material(
+                SYMMETRIES[symmetry](**moved).hooke(), self.materials[region].density
+            )
+        return replace(self, materials=materials, constants=constants)
 
     def modes(self, orders: Sequence[int], highest_hz: float) -> DeclaredModes:
         """Named modes of some orders."""
@@ -106,15 +131,22 @@ def declared_stage(case: Case, index: int, density: MeshDensity | None) -> Decla
     typed = {d.region: d.density_kg_m3 for d in densities(weights, step.exact_volumes())}
     model = assemble(mesh_step(step, density or truth_mesh(case.stages[index])))
     constants, materials = {}, {}
+    spreads: dict[str, float] = {}
     for region in model.mesh.regions:
         source = region if study.symmetry(index, region) is not None else "winding"
         symmetry = str(study.symmetry(index, source))
         values = _as_declared(symmetry, case.stages[index].materials[source])
         weighed = "winding" if source == "overhang" else source
-        last = [stage.name for stage in stages if REGION_OF_STEP[stage.kind] == weighed][-1]
-        constants[region] = f"{source} ({last})", symmetry, values
+        last = [stage for stage in stages if REGION_OF_STEP[stage.kind] == weighed][-1]
+        constants[region] = f"{source} ({last.name})", symmetry, values
+        spreads |= {f"{source} ({last.name}).{n}": _spread(weighed, last.kind, symmetry, n) for n in values}
         materials[region] = Material(SYMMETRIES[symmetry](**values).hooke(), typed[weighed])
-    return DeclaredStage(model, materials, constants)
+    return DeclaredStage(model, materials, constants, spreads)
+
+
+def _spread(region: str, kind: str, symmetry: str, constant: str) -> float:
+    known = prior_range(region, kind, symmetry, constant)
+    return float(np.log(known.high90 / known.low90) / (2 * Z95))
 
 
 def _as_declared(symmetry: str, true: TrueMaterial) -> dict[str, float]:

@@ -2,50 +2,28 @@
 
 Frequencies only, so that it is the least that a diagnosis has: r = ln(f true / f declared) of all free tests, of the
 modes that a table lists or FRFs show, whitened by the noise of the frequencies and the mesh's uncertainty, which both
-modes of a name share, and projected onto what no combination of the declared constants of all stages can do (physics.md
-§7.4). The projected signal-to-noise is the norm of what is left. Supported tests add their plain errors, a heavy
-accelerometer the differences of the poles.
+modes of a name share, after a refit of the declared constants of all stages (physics.md §7.4, repeated until nothing
+more is absorbed). The projected signal-to-noise is the norm of what is left. Supported tests add their plain errors,
+a heavy accelerometer the differences of the poles.
 """
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from statorhom.conceal.declared_stage import Key, declared_stage
-from statorhom.conceal.listed import ListedMode
+from statorhom.conceal.absorbed import FREQUENCY_SD, MESH_SD, Misfit, absorbed
+from statorhom.conceal.declared_residual import Residual, declared_test
 from statorhom.conceal.measure_case import Measured, pressed
 from statorhom.conceal.sensors import PLANES
-from statorhom.conceal.tables import relabelled
 from statorhom.conceal.truth import Case
-from statorhom.errors import StatorhomError
 from statorhom.mesh import MeshDensity
 from statorhom.model.broken.solve import solve_broken
 from statorhom.study.supports import LineSupport
 
-FREQUENCY_SD, MESH_SD = (
-    3e-4,
-    2e-3,
-)  # relative: of a measured frequency; of a name's mesh error, after extrapolation
-CONSTANT_SD = 0.5  # of a constant's logarithm, before any measurement
 AROUND = 24  # angles at which a plane's poles are averaged
-WIDEST_SPLIT = 1.08  # two modes of a name that are farther apart are no doublet
-REACH = 1.3  # declared modes are sought this much higher than the true ones
-
-
-@dataclass(frozen=True, eq=False)
-class Residual:
-    """One free test: ln(f true/f declared), the number of each one's name, and slopes by constant."""
-
-    test: str
-    keys: tuple[Key, ...]
-    values: np.ndarray
-    owner: np.ndarray
-    slopes: dict[str, np.ndarray]
 
 
 def detectability(case: Case, tests: Sequence[Measured], density: MeshDensity | None) -> dict[str, Any]:
@@ -56,8 +34,8 @@ def detectability(case: Case, tests: Sequence[Measured], density: MeshDensity | 
     case, tests : the truth and its measurements.
     density : of the true stator's mesh; None: what is usual of the step.
     """
-    residuals = [r for measured in tests if (r := _residual(case, measured, density)) is not None]
-    found, total = _projected(residuals)
+    declared = [d for measured in tests if (d := declared_test(case, measured, density)) is not None]
+    found, total = _left(absorbed(declared))
     for measured in tests:
         test = case.stages[measured.stage].tests[measured.test]
         entry = {}
@@ -71,78 +49,16 @@ def detectability(case: Case, tests: Sequence[Measured], density: MeshDensity | 
     return {**found, "projected_snr": total}
 
 
-def _residual(case: Case, measured: Measured, density: MeshDensity | None) -> Residual | None:
-    test = case.stages[measured.stage].tests[measured.test]
-    seen = measured.listed if test.is_table else tuple(m for m in measured.modes if m.is_visible)
-    if test.relabelled is not None:
-        seen = relabelled(seen, test.relabelled)[0]
-    pairs = _by_name(seen)
-    if test.declared is not None or not pairs:
-        return None
-    try:
-        declared = declared_stage(case, measured.stage, density)
-    except StatorhomError:
-        return None  # typed data that no stator can have are seen without any test
-    orders = sorted({key[0] for key in pairs})
-    modes = declared.modes(orders, REACH * measured.ritz.ground.highest_hz)
-    partner = _partners(pairs, {key: mode.frequency_hz for key, mode in modes.named.items()})
-    if not partner:
-        return None
-    keys = tuple(partner.values())
-    base = np.array([modes.named[partner[key]].frequency_hz for key in partner for _ in pairs[key]])
-    true = np.array([f for key in partner for f in pairs[key]])
-    owner = np.array([i for i, key in enumerate(partner) for _ in pairs[key]])
-    slopes = {name: column[owner] for name, column in modes.slopes(keys).items()}
-    return Residual(test.name, keys, np.log(true / base), owner, slopes)
-
-
-def _by_name(modes: Sequence[ListedMode]) -> dict[Key, list[float]]:
-    """Frequencies by name: one or two of a doublet, then the next one of the same name."""
-    found: dict[Key, list[float]] = {}
-    counts: dict[tuple[int, int], int] = defaultdict(int)
-    for mode in sorted(modes, key=lambda m: m.frequency_hz):
-        if mode.order is None or mode.axial is None:
-            continue
-        name = (mode.order, mode.axial)
-        last = found.get((*name, counts[name] - 1))
-        if last is not None and len(last) == 1 and mode.frequency_hz < WIDEST_SPLIT * last[0]:
-            last.append(mode.frequency_hz)
-        else:
-            found[*name, counts[name]] = [mode.frequency_hz]
-            counts[name] += 1
-    return found
-
-
-def _partners(pairs: Mapping[Key, list[float]], declared: Mapping[Key, float]) -> dict[Key, Key]:
-    """The declared mode of the same name that is nearest in frequency; each is taken once."""
-    found: dict[Key, Key] = {}
-    for key, frequencies in pairs.items():
-        free = [other for other in declared if other[:2] == key[:2] and other not in found.values()]
-        if free:
-            found[key] = min(free, key=lambda other: abs(np.log(declared[other] / frequencies[0])))
-    return found
-
-
-def _projected(residuals: Sequence[Residual]) -> tuple[dict[str, Any], float]:
-    """What one refit of all constants leaves in every test, and its norm in standard deviations."""
-    if not residuals:
+def _left(misfit: Misfit | None) -> tuple[dict[str, Any], float]:
+    """What the refit of all constants leaves in every test, and its norm in standard deviations."""
+    if misfit is None:
         return {}, 0.0
-    values = np.concatenate([r.values for r in residuals])
-    names = sorted({name for r in residuals for name in r.slopes})
-    slopes = np.vstack(
-        [np.column_stack([r.slopes.get(n, np.zeros(len(r.values))) for n in names]) for r in residuals]
-    )
-    owner = np.concatenate([1000 * i + r.owner for i, r in enumerate(residuals)])
-    covariance = FREQUENCY_SD**2 * np.eye(len(values)) + MESH_SD**2 * (owner[:, None] == owner)
-    weights = np.linalg.inv(covariance)
-    normal = slopes.T @ weights @ slopes + np.eye(len(names)) / CONSTANT_SD**2
-    left = values - slopes @ np.linalg.solve(normal, slopes.T @ weights @ values)
-    found, first = {}, 0
-    for residual in residuals:
+    left, found, first = misfit.left, {}, 0
+    for residual in misfit.residuals:
         part = left[first : first + len(residual.values)]
         found[residual.test] = _entry(residual, part)
         first += len(part)
-    return found, float(np.sqrt(max(left @ weights @ left, 0.0)))
+    return found, misfit.left_sd
 
 
 def _entry(residual: Residual, left: np.ndarray) -> dict[str, Any]:

@@ -1,0 +1,151 @@
+"""How much of a misfit a refit of the declared constants absorbs: Gauss-Newton steps until nothing more is gained.
+
+A strong effect moves constants so far that one linear projection leaves many times what a refit does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from statorhom.conceal.declared_residual import DeclaredTest, Residual
+
+FREQUENCY_SD, MESH_SD = (
+    3e-4,
+    2e-3,
+)  # relative: of a measured frequency; of a name's mesh error, after extrapolation
+ROUNDS = 12
+SMALL = 0.01  # a step of a constant's logarithm that changes modes as the slopes say
+LARGEST = 0.5  # step of a constant's logarithm
+FRACTIONS = (1.0, 0.5, 0.25, 0.1)  # of a step, tried in turn
+WEAKER = (-0.5, -1.0, -1.5)  # changes of the winding's moduli from which the steps begin again
+SEEN = 3.0  # standard deviations
+GAIN = 0.01  # of the misfit; what gains less is the end
+
+
+@dataclass(frozen=True, eq=False)
+class Misfit:
+    """All tests at some constants.
+
+    Parameters
+    ----------
+    residuals : of every test.
+    names : of the constants.
+    changes : of their logarithms from the true ones.
+    """
+
+    residuals: tuple[Residual, ...]
+    names: tuple[str, ...]
+    changes: np.ndarray
+
+    @property
+    def values(self) -> np.ndarray:
+        """All tests' ln(f true/f declared)."""
+        return np.concatenate([r.values for r in self.residuals])
+
+    @property
+    def slopes(self) -> np.ndarray:
+        """Of the declared ln f by the constants' logarithms, by mode and constant."""
+        return np.vstack(
+            [
+                np.column_stack([r.slopes.get(n, np.zeros(len(r.values))) for n in self.names])
+                for r in self.residuals
+            ]
+        )
+
+    @property
+    def weights(self) -> np.ndarray:
+        """Inverse covariance of the frequencies: noise of its own, a mesh's error of its name."""
+        owner = np.concatenate([1000 * i + r.owner for i, r in enumerate(self.residuals)])
+        return np.linalg.inv(FREQUENCY_SD**2 * np.eye(len(owner)) + MESH_SD**2 * (owner[:, None] == owner))
+
+    @property
+    def spreads(self) -> np.ndarray:
+        """Standard deviations of the constants' logarithms before any measurement."""
+        return np.array([next(r.spreads[n] for r in self.residuals if n in r.spreads) for n in self.names])
+
+    @property
+    def merit(self) -> float:
+        """χ² with what is known of the constants."""
+        return self._merit(self.values, self.changes)
+
+    def _merit(self, values: np.ndarray, changes: np.ndarray) -> float:
+        return float(values @ self.weights @ values + np.sum((changes / self.spreads) ** 2))
+
+    def step(self) -> np.ndarray:
+        """Of the constants' logarithms to the least merit, as the slopes say."""
+        J, W, known = self.slopes, self.weights, self.spreads**-2
+        return np.linalg.solve(J.T @ W @ J + np.diag(known), J.T @ W @ self.values - known * self.changes)
+
+    @property
+    def left(self) -> np.ndarray:
+        """What that step leaves of the values."""
+        return self.values - self.slopes @ self.step()
+
+    @property
+    def left_sd(self) -> float:
+        """Norm of rᵀPr (physics.md §7.4): of what is left and of how unusual the constants became, in sd."""
+        return float(np.sqrt(self._merit(self.left, self.changes + self.step())))
+
+
+def absorbed(tests: Sequence[DeclaredTest]) -> Misfit | None:
+    """The tests at the constants that come nearest to the truth; None without any test.
+
+    Where the nearest valley leaves something to be seen, others are tried: a winding is known to a decade only.
+    """
+    begin = [r for test in tests if (r := test.residual({})) is not None]
+    tests = [test for test in tests if test.name in {r.test for r in begin}]
+    if not begin:
+        return None
+    names = tuple(sorted({name for r in begin for name in r.slopes}))
+    best = _settled(Misfit(tuple(begin), names, np.zeros(len(names))), tests)
+    for weaker in WEAKER:
+        if best.left_sd < SEEN:
+            break
+        start = _moved(tests, names, np.array([weaker * _is_winding_modulus(name) for name in names]))
+        if start is not None:
+            best = min(best, _settled(start, tests), key=lambda misfit: misfit.merit)
+    return best
+
+
+def _is_winding_modulus(name: str) -> bool:
+    source, constant = name.rsplit(".", 1)
+    return source.startswith("winding") and constant.endswith("_pa")
+
+
+def _settled(misfit: Misfit, tests: Sequence[DeclaredTest]) -> Misfit:
+    for _ in range(ROUNDS):
+        nearer = _nearer(misfit, tests)
+        if nearer is None:
+            break
+        gained, misfit = misfit.merit - nearer.merit, nearer
+        if gained < GAIN * misfit.merit:
+            break
+    return misfit
+
+
+def _nearer(misfit: Misfit, tests: Sequence[DeclaredTest]) -> Misfit | None:
+    """After one step; None where it is small or no part of it gains."""
+    step = misfit.step()
+    size = float(np.abs(step).max())
+    if size < SMALL:
+        return None
+    for fraction in FRACTIONS:
+        changes = misfit.changes + fraction * min(1.0, LARGEST / size) * step
+        moved = _moved(tests, misfit.names, changes)
+        if moved is not None and moved.merit < misfit.merit:
+            return moved
+    return None
+
+
+def _moved(tests: Sequence[DeclaredTest], names: Sequence[str], changes: np.ndarray) -> Misfit | None:
+    by_name: Mapping[str, float] = dict(zip(names, changes, strict=True))
+    residuals = []
+    for test in tests:
+        residual = test.residual(by_name)
+        if residual is None:
+            return None
+        residuals.append(residual)
+    return Misfit(tuple(residuals), tuple(names), changes)
