@@ -95,6 +95,7 @@ def test_rivals_of_the_favourite_are_sought_all_over_the_prior(monkeypatch: pyte
     scan: Any = SimpleNamespace(of_every_candidate=lambda: signatures)
     start = {name: start_of(name) for name in gains}
     monkeypatch.setattr(refit_starts, "is_poor", lambda _: True)
+    monkeypatch.setattr(refit_starts, "shared_by", lambda _: [])
     monkeypatch.setattr(refit_starts, "price", lambda _: refit_starts.CHEAP)
     monkeypatch.setattr(refit_starts, "_starts_of", lambda _, __, s: [start[s.candidate.label]])
     monkeypatch.setattr(refit_starts, "_searched", lambda s: [f"{s.name} searched"])

@@ -11,7 +11,7 @@ import pytest
 
 from statorhom.diagnose import single_effects as module
 from statorhom.diagnose.refit_starts import CHEAP, MIDDLING, Start
-from statorhom.diagnose.single_effects import refits
+from statorhom.diagnose.single_effects import NEAR, refits
 
 LIMIT = 90.0
 
@@ -38,6 +38,7 @@ def worths(
     monkeypatch.setattr(module, "price", lambda trial: trial[1][0])
     monkeypatch.setattr(module, "_has_place", lambda _: place == "somewhere")
     monkeypatch.setattr(module, "_best_refit", best_refit)
+    monkeypatch.setattr(module, "shared_by", lambda _: [])
     base: Any = SimpleNamespace(misfit=misfit, objective=misfit, jacobian=np.zeros((30, 1)))
     trials: Any = [(50.0, [price]) for price in prices]
     assert refits(base, trials, {}, LIMIT) == []
@@ -47,6 +48,28 @@ def worths(
 def test_near_an_optimum_what_has_a_place_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     assert worths(monkeypatch, 60.0, CHEAP, MIDDLING, MIDDLING) == [np.inf] * 3
     assert worths(monkeypatch, 60.0, CHEAP, MIDDLING, place="somewhere") == [LIMIT, LIMIT]
+
+
+def test_a_few_know_of_the_same_others_whatever_the_number_of_processes(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found = {"first": 50.0, "second": 20.0, "third": 30.0, "fourth": 9.0, "fifth": 9.0, "sixth": 9.0}
+    seen: dict[str, float] = {}
+
+    def best_refit(starts: Any, worth: float, **_: Any) -> Any:
+        seen[starts[0]] = worth
+        return SimpleNamespace(objective=found[starts[0]])
+
+    monkeypatch.setattr(module, "price", lambda _: MIDDLING)
+    monkeypatch.setattr(module, "_has_place", lambda _: True)
+    monkeypatch.setattr(module, "_best_refit", best_refit)
+    monkeypatch.setattr(module, "shared_by", lambda _: [])
+    monkeypatch.setattr(module, "explained", lambda best, _: Chances(best, 0.5, 0.5))
+    base: Any = SimpleNamespace(misfit=1e3, objective=1e3, jacobian=np.zeros((30, 1)))
+    trials: Any = [(50.0, [name]) for name in found]
+    assert [e.refit.objective for e in refits(base, trials, {})] == list(found.values())
+    # the first stands alone: it tells whether others are rivals
+    assert [worth - NEAR for worth in seen.values()] == [np.inf, 50.0, 50.0, 50.0, 50.0, 9.0]
 
 
 def test_of_a_poor_model_cheap_effects_are_followed_through_other_valleys(

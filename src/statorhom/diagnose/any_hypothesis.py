@@ -92,6 +92,12 @@ class AnyHypothesis(ABC):
         """Number of constants, the first part of the vector."""
         return len(self.study.constants)
 
+    @property
+    def shared(self) -> tuple[object, ...]:
+        """What other hypotheses refer to as well (`statorhom.diagnose.side_by_side`)."""
+        study = self.study
+        return study, study.files, study.constants, *study.stages, *study.effects, *self.candidates
+
     @cached_property
     def parameters(self) -> tuple[tuple[int, int], ...]:
         """Candidate and parameter number of the vector's second part."""

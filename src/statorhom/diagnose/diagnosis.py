@@ -46,6 +46,7 @@ from statorhom.diagnose.report_rows import (
 from statorhom.diagnose.resampling import stability
 from statorhom.diagnose.scan import Scan
 from statorhom.diagnose.second_effects import confirmed_pairs
+from statorhom.diagnose.side_by_side import processes
 from statorhom.diagnose.simpler import by_criterion, simpler_fits
 from statorhom.geometry.tested_object import ObjectGeometry, RingGeometry
 from statorhom.identify.announce import Announce, silent
@@ -95,7 +96,11 @@ def diagnose(
         If files, masses or tests do not allow it.
     """
     began = time.perf_counter()
-    with threadpool_limits(limits=1, user_api="blas"), one_line_errors(str(files.path)):
+    with (
+        threadpool_limits(limits=1, user_api="blas"),
+        one_line_errors(str(files.path)),
+        processes(settings.jobs),
+    ):
         approach = RING if isinstance(geometry, RingGeometry) else BODY
         found = _find(approach, files, geometry, tests, settings, announce)
         undecided = found.verdict == "ambiguous"

@@ -14,6 +14,7 @@ from statorhom.diagnose.derivatives import jacobian
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.refit import Refit, refit
+from statorhom.diagnose.side_by_side import side_by_side
 from statorhom.errors import StatorhomError
 from statorhom.identify.stage_problem import LABELLED_GATE, PAIRING_SD
 from statorhom.model.convergence import ModeKey
@@ -147,22 +148,22 @@ def _predicted(
     base: Refit, explanation: Explanation, folds: Sequence[frozenset[Group]], lacking: Lacking = NOTHING
 ) -> HeldOut:
     groups = {g for fold in folds for g in fold}
+    used = [fold for fold in folds if fold and (len(fold) < len(groups) or fold == {WEIGHED})]
+    fits = [(r, fold) for r in (base, explanation.refit) for fold in used]
+    errors = side_by_side(lambda fit: _errors(*fit), fits)
     rows: dict[Part, tuple[_Error, _Error]] = {}
-    for fold in folds:
-        if not fold or (len(fold) == len(groups) and fold != {WEIGHED}):
-            continue
-        before, after = (_errors(r, fold) for r in (base, explanation.refit))
+    for before, after in zip(errors[: len(used)], errors[len(used) :], strict=True):
         rows |= {part: (before[part], after[part]) for part in before if part in after}
         rows |= {part: (_lacking(e), e) for part, e in after.items() if part[0] in lacking[0]}
         rows |= {part: (e, _lacking(e)) for part, e in before.items() if part[0] in lacking[1]}
-    apart = [part for part, errors in rows.items() if _differ(*errors)]
-    used = sorted(apart or rows, key=str)
-    lone = any(group in lacking[0] | lacking[1] for group, _ in used)
+    apart = [part for part, both in rows.items() if _differ(*both)]
+    told = sorted(apart or rows, key=str)
+    lone = any(group in lacking[0] | lacking[1] for group, _ in told)
     return HeldOut(
-        tuple(group for group, _ in used),
-        tuple(rows[g][0].error for g in used),
-        tuple(rows[g][1].error for g in used),
-        tuple(_noise_of(*rows[g]) for g in used),
+        tuple(group for group, _ in told),
+        tuple(rows[g][0].error for g in told),
+        tuple(rows[g][1].error for g in told),
+        tuple(_noise_of(*rows[g]) for g in told),
         f"{WHAT}; one that a model has not got counts as {LACKING} % off" if lone else WHAT,
         LEAST_FALL if _has_shapes(base) else OF_TABLES,
     )

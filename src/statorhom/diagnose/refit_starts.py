@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.scan import Scan, Signature
 from statorhom.diagnose.scan import starts as scan_starts
 from statorhom.diagnose.searched_starts import searched_starts
+from statorhom.diagnose.side_by_side import side_by_side
 from statorhom.diagnose.valleys import wide_optima
 from statorhom.diagnose.wider_basis import with_materials_of
 from statorhom.errors import IdentificationError
@@ -46,6 +48,12 @@ class Start:
     rough: Refit | None = None
 
 
+def shared_by(starts: Sequence[Start]) -> list[object]:
+    """What refits from there refer to (`statorhom.diagnose.side_by_side`)."""
+    hypotheses = [start.hypothesis for start in starts]
+    return [*hypotheses, *(one for hypothesis in hypotheses for one in hypothesis.shared)]
+
+
 Trial = tuple[float, list[Start]]  # gain of the scan, and where refits begin
 
 
@@ -70,21 +78,41 @@ def in_order(base: Refit, found: Scan, favourites: Sequence[Signature]) -> Itera
     if not is_poor(base):
         yield from trials
         return
-    if price(trials[0]) < DEAR:
-        # the scan's favourite needs no rival to be tried
-        gain, starts = trials.pop(0)
-        yield gain, [*(_searched(starts[0]) if price((gain, starts)) == CHEAP else ()), *starts]
+    # the scan's favourite needs no rival to be tried
+    begun = [trials.pop(0)] if price(trials[0]) < DEAR else []
     # gross errors are held down: what a cheap effect would gain is better tried than read from its signature
     others = [
         (s.gain, _starts_of(base, found, s)) for s in found.of_every_candidate() if s not in (first, *rest)
     ]
     cheap = [trial for trial in (*trials, *others) if price(trial) == CHEAP]
     alike = _of_different_effects([trial for trial in cheap if trial[0] >= ALIKE * first.gain], first)
-    yield from ((gain, [*narrowed_starts(starts[0]), *starts]) for gain, starts in alike)
-    cheap = [trial for trial in cheap if trial not in alike]
-    widest = [(gain, _with_rough(base, starts)) for gain, starts in cheap]
-    yield from _promising(base, widest)
+    widest = [trial for trial in cheap if trial not in alike]
+    searches: list[tuple[Callable[[Trial], Trial], Trial]] = [
+        *((_all_over_the_prior, trial) for trial in begun),
+        *((_narrowed, trial) for trial in alike),
+        *((partial(_in_wide_valleys, base), trial) for trial in widest),
+    ]
+    begins = [start for _, (_, starts) in searches for start in starts]
+    searched = side_by_side(lambda search: search[0](search[1]), searches, shared_by(begins))
+    near = len(begun) + len(alike)
+    yield from searched[:near]
+    yield from _promising(base, searched[near:])
     yield from sorted((trial for trial in trials if price(trial) > CHEAP), key=price)
+
+
+def _all_over_the_prior(trial: Trial) -> Trial:
+    gain, starts = trial
+    return gain, [*(_searched(starts[0]) if price(trial) == CHEAP else ()), *starts]
+
+
+def _narrowed(trial: Trial) -> Trial:
+    gain, starts = trial
+    return gain, [*narrowed_starts(starts[0]), *starts]
+
+
+def _in_wide_valleys(base: Refit, trial: Trial) -> Trial:
+    gain, starts = trial
+    return gain, _with_rough(base, starts)
 
 
 def _of_different_effects(trials: Sequence[Trial], first: Signature) -> list[Trial]:

@@ -9,6 +9,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 import scipy.sparse as sp
 
+from statorhom.diagnose.side_by_side import side_by_side
 from statorhom.diagnose.small_pairs import small_pairs
 from statorhom.model.affine import AffineModel, Materials, hooke_coefficients
 from statorhom.model.blas_threads import one_blas_thread
@@ -21,6 +22,7 @@ from statorhom.model.stator_mode import StatorMode, name_modes
 
 DEPENDENT = 1e-7  # part of the norm by which a snapshot must differ from the others
 REACH = 1.15  # snapshots reach this much higher than the band
+SNAPSHOTS = 3  # that are worth a process
 MOST = 10  # modes of one problem per snapshot
 
 Gradient = Mapping[str, tuple[np.ndarray, float]]
@@ -213,7 +215,9 @@ def _solved(
 ) -> list[np.ndarray]:
     """Modes (m, j) of all snapshots, per problem."""
     parts = pitch_parts(model.mesh)
-    found = [modes_of(half_pitches(parts, K, M), spaces, highest_hz, MOST) for K, M in matrices]
+    found = side_by_side(
+        lambda pair: modes_of(half_pitches(parts, *pair), spaces, highest_hz, MOST), matrices
+    )
     return [np.hstack([pairs[number][1] for pairs in found]) for number in range(len(spaces))]
 
 

@@ -8,7 +8,7 @@ when nothing is missing comes from draws of noise and constants that are refitte
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
@@ -18,6 +18,7 @@ import numpy.typing as npt
 from statorhom.diagnose.any_hypothesis import AnyHypothesis, ModelledStudy
 from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.side_by_side import side_by_side
 from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.parameter import EffectParameter
@@ -27,6 +28,7 @@ ANGLES_PER_ORDER = 5  # places per half wave of the highest split order
 # of the core's length; not its middle, where splits of a symmetric stator have no slope that a refit could follow
 HEIGHTS = (0.15, 0.45, 0.7)
 DRAWS = 4000
+MANY = 24  # of a candidate's further places: worth a process
 COMMON = 0.6  # of the features, from which on signatures of one optimum are those of another
 INVISIBLE = 1e-6  # of a signature's square that the constants leave: none that could be told
 
@@ -110,13 +112,17 @@ def scan(base: Refit, candidates: Sequence[Candidate], seed: int) -> Scan:
     # a signature's direction needs no local fields
     hypothesis = replace(base.hypothesis, trained=False)
     without = hypothesis.features(base.z)
-    found = []
-    for candidate in candidates:
+    places = [(c, start) for c in candidates for start in starts(base.hypothesis.study, c)]
+
+    def change(place: tuple[Candidate, FloatArray]) -> FloatArray | None:
+        candidate, start = place
         acted = replace(hypothesis, candidates=(*hypothesis.candidates, candidate))
-        for start in starts(base.hypothesis.study, candidate):
-            change = _change(without, acted, np.r_[base.z, start])
-            if change is not None and (signature := away.signature(candidate, start, change)) is not None:
-                found.append(signature)
+        return _change(without, acted, np.r_[base.z, start])
+
+    found = []
+    for (candidate, start), whole in zip(places, _first_ones_first(change, places), strict=True):
+        if whole is not None and (signature := away.signature(candidate, start, whole)) is not None:
+            found.append(signature)
     found.sort(key=lambda s: -s.gain)
     return Scan(tuple(found), _p_value(found, away.q, seed))
 
@@ -145,6 +151,18 @@ def left_over(before: Scan, base: Refit, first: Refit, seed: int) -> Scan:
             found.append(again)
     found.sort(key=lambda s: -s.gain)
     return Scan(tuple(found), _p_value(found, away.q, seed))
+
+
+def _first_ones_first(
+    change: Callable[[tuple[Candidate, FloatArray]], FloatArray | None],
+    places: Sequence[tuple[Candidate, FloatArray]],
+) -> list[FloatArray | None]:
+    """Changes at all places; what all those of a candidate need is made by its first one, and remembered here."""
+    first = {candidate.label: i for i, (candidate, _) in reversed(list(enumerate(places)))}
+    rest = [i for i in range(len(places)) if i not in first.values()]
+    known = {i: change(places[i]) for i in first.values()}
+    known |= dict(zip(rest, side_by_side(change, [places[i] for i in rest], least=MANY), strict=True))
+    return [known[i] for i in range(len(places))]
 
 
 def _rows(r: Refit) -> list[tuple[str, str, object, int]]:

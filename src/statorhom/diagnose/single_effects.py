@@ -35,14 +35,17 @@ from statorhom.diagnose.refit_starts import (
     is_poor,
     narrowed_starts,
     price,
+    shared_by,
     start_of,
 )
 from statorhom.diagnose.scan import Scan
 from statorhom.diagnose.searched_starts import of_later_steps
+from statorhom.diagnose.side_by_side import side_by_side
 from statorhom.physics.candidate import Candidate
 
 MOST = 12  # candidates that are refitted
 RELABELLED = 4
+TOGETHER = 4  # refits that know of the same others
 MOSTLY = 0.5  # of the declared model's objective, below which an explanation leads
 PROMISING = 0.6  # of the same: what explains as much without local fields is tried with them
 NEAR = 60.0  # of the objective: what does not come so near to an adequate explanation is given up
@@ -81,20 +84,33 @@ def refits(
         place beside a good one, is followed whatever it reaches at once, for other valleys may be better.
     """
     explanations: list[Explanation] = []
-    for gain, starts in trials:
-        dear = price((gain, starts)) > CHEAP
-        limited = dear if is_poor(base) else _has_place(starts[0])
-        # what costs little may explain the one row too that another leaves: that one is no limit to it
-        bar = _worth(explanations) if dear or _has_place(starts[0]) else _worth(explanations, whole=True)
-        worth = min(bar, limit if limited else np.inf)
-        if gain < WORTH and np.isfinite(worth):
-            continue  # it promises nothing, and nothing is left to explain
-        if dear:
-            worth = min(worth, _leading(base, explanations))
-        best = _best_refit(starts, worth, far=is_poor(base), known=base.objective)
-        if best is not None:
-            explanations.append(explained(best, counts))
+    waiting = list(trials)
+    while waiting:
+        # whatever the number of processes, so that answers do not depend on it
+        count = TOGETHER if explanations else 1
+        now, waiting = waiting[:count], waiting[count:]
+        limits = [_limit(base, trial, explanations, limit) for trial in now]
+        tasks = [(starts, worth) for (_, starts), worth in zip(now, limits, strict=True) if worth is not None]
+        found = side_by_side(
+            lambda task: _best_refit(*task, far=is_poor(base), known=base.objective),
+            tasks,
+            shared_by([start for starts, _ in tasks for start in starts]),
+        )
+        explanations += [explained(best, counts) for best in found if best is not None]
     return explanations
+
+
+def _limit(base: Refit, trial: Trial, explanations: Sequence[Explanation], limit: float) -> float | None:
+    """Objective above which a trial's refit is no rival; None where it need not be made."""
+    gain, starts = trial
+    dear, placed = price(trial) > CHEAP, _has_place(starts[0])
+    limited = dear if is_poor(base) else placed
+    # what costs little may explain the one row too that another leaves: that one is no limit to it
+    bar = _worth(explanations) if dear or placed else _worth(explanations, whole=True)
+    worth = min(bar, limit if limited else np.inf)
+    if gain < WORTH and np.isfinite(worth):
+        return None  # it promises nothing, and nothing is left to explain
+    return min(worth, _leading(base, explanations)) if dear else worth
 
 
 def _has_place(start: Start) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from scipy.stats import norm, qmc
@@ -12,6 +13,7 @@ from typing_extensions import TypeVar
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.explanations import COARSE, refitted
 from statorhom.diagnose.refit import Refit, refit_objective
+from statorhom.diagnose.side_by_side import side_by_side
 from statorhom.errors import IdentificationError, StatorhomError
 
 _H = TypeVar("_H", bound=AnyHypothesis)
@@ -20,6 +22,7 @@ _H = TypeVar("_H", bound=AnyHypothesis)
 TRIALS, STARTS, SHARPENED = 200, 16, 3
 # how many are refitted while all of them miss frequencies by more than a part of what wide valleys forgive
 MOST, FITTING = 48, 0.25
+MANY = 24  # points that are worth a process
 APART = 1.0  # prior standard deviations between starts
 FAR_BEHIND = 20.0  # of the objective in wide valleys: what stays so far behind is no other optimum
 NO_START = "no start of the declared model could be fitted; check masses and tables"
@@ -88,13 +91,16 @@ def wide_optima(
 
 def nearest_first(hypothesis: AnyHypothesis, points: Sequence[np.ndarray]) -> list[np.ndarray]:
     """Points by what a refit would have to make small there; what no body has is left out."""
-    scored = []
-    for z in points:
-        try:
-            scored.append((refit_objective(hypothesis, z), z))
-        except StatorhomError:
-            continue
+    scores = side_by_side(partial(_score, hypothesis), points, least=MANY)
+    scored = [(score, z) for score, z in zip(scores, points, strict=True) if score is not None]
     return [z for _, z in sorted(scored, key=lambda pair: pair[0])]
+
+
+def _score(hypothesis: AnyHypothesis, z: np.ndarray) -> float | None:
+    try:
+        return refit_objective(hypothesis, z)
+    except StatorhomError:
+        return None
 
 
 def _fits(found: Refit[_H]) -> bool:
