@@ -2,16 +2,18 @@
 
     python benchmarks/diagnosis_processes.py STUDY… [--rounds 2] [--jobs 2]
 
-Recordings are extracted anew each time, as whoever waits for an answer does. Figures are medians over rounds.
+Each is a process of its own that remembers nothing, recordings are extracted anew. Figures are medians over rounds.
 """
 
 from __future__ import annotations
 
 import argparse
+import multiprocessing
 import os
 import statistics
 import tempfile
 import time
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 # before NumPy is loaded: one thread each
@@ -28,6 +30,11 @@ def diagnosed(path: Path, jobs: int) -> tuple[float, str]:
         return time.perf_counter() - begin, found.model_dump_json()
 
 
+def _apart(path: Path, jobs: int) -> tuple[float, str]:
+    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
+        return pool.submit(diagnosed, path, jobs).result()
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
@@ -37,7 +44,7 @@ def main() -> None:
     parser.add_argument("--jobs", type=int, default=2)
     options = parser.parse_args()
     for path in options.studies:
-        runs = [(diagnosed(path, options.jobs), diagnosed(path, 1)) for _ in range(options.rounds)]
+        runs = [(_apart(path, options.jobs), _apart(path, 1)) for _ in range(options.rounds)]
         several, one = (statistics.median(run[i][0] for run in runs) for i in (0, 1))
         same = "same" if len({answer for run in runs for _, answer in run}) == 1 else "DIFFERENT"
         name = f"{path.parent.name}/{path.name}"
