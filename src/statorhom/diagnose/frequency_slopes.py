@@ -14,6 +14,7 @@ from typing import cast
 import numpy as np
 import numpy.typing as npt
 
+from statorhom.diagnose.density_features import density_features
 from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.hypothesis import Hypothesis, Told
 from statorhom.diagnose.measured import MeasuredTest
@@ -262,4 +263,4 @@ def _density_slopes(
         return np.zeros(len(features))
     values = h.study.constants.values(z[: h.constants])
     values[constant.name] = constant.value(z[j] + STEP)
-    return slopes_of(features, h.densities(values, actions), STEP)
+    return slopes_of(features, density_features(h.study, values, actions), STEP)

@@ -20,7 +20,7 @@ from statorhom.diagnose.damping import (
     supported_losses,
     with_shares,
 )
-from statorhom.diagnose.dimension_response import changed_geometry, step_of
+from statorhom.diagnose.density_features import density_features
 from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.features import free_features, loading, shift_features, with_rows
 from statorhom.diagnose.followed_modes import Names, names_of
@@ -32,7 +32,6 @@ from statorhom.diagnose.levels import (
     level_features,
     slipped,
 )
-from statorhom.diagnose.masses import KNOWN, stage_densities
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode, acted_materials, predicted
 from statorhom.diagnose.sensor_response import SensorResponse, sensor_response
@@ -44,7 +43,6 @@ from statorhom.diagnose.supported import (
     without_attachments,
 )
 from statorhom.diagnose.supported_partners import Partners, partners, supported_features
-from statorhom.materials.density import REGION_OF_STEP
 from statorhom.model.convergence import ModeKey
 from statorhom.physics.action import Action
 from statorhom.study.modal_table import MeasuredMode
@@ -156,7 +154,7 @@ class Hypothesis(AnyHypothesis):
         """The same with predictions that were moved, where there are any."""
         values, actions = self.study.constants.values(z[: self.constants]), self.actions(z)
         assert self.held is not None
-        found = self.densities(values, actions)
+        found = density_features(self.study, values, actions)
         told: dict[str, tuple[StageModel, Predictions]] = {}
         for stage in self.study.stages:
             known: dict[str, Mapping[ModeKey, PredictedMode]] = {}
@@ -298,31 +296,6 @@ class Hypothesis(AnyHypothesis):
         if stage.heights_m and test.shapes is not None and not self.in_wide_valleys:
             found += lean_features(test, measured, keys, modes, stage.heights_m)
         return with_rows(found, measured, keys)
-
-    def densities(self, values: Mapping[str, float], actions: Sequence[Action]) -> list[Feature]:
-        """What is known of the densities of the regions that the tested steps add."""
-        corrected: dict[str, float] = {}
-        dimensions: dict[str, float] = {}
-        for action in actions:
-            corrected |= dict(action.masses)
-            dimensions |= dict(action.dimensions)
-        masses = self.study.masses(values, corrected)
-        changed = changed_geometry(self.study, dimensions) if dimensions else None
-        found = []
-        for stage in self.study.stages:
-            kind = stage.setup.keys.kind
-            if kind not in KNOWN:
-                continue
-            region, (mean, sd) = REGION_OF_STEP[kind], KNOWN[kind]
-            volumes = (
-                self.study.volumes(stage.setup)
-                if changed is None
-                else step_of(self.study, stage, changed).exact_volumes()
-            )
-            density = stage_densities(self.study.files, masses, stage.setup.index, volumes)
-            if region in density:
-                found.append(Feature("density", "", None, density[region], mean, sd))
-        return found
 
 
 def _sensor_response(stage: StageModel, test: MeasuredTest) -> SensorResponse | None:
