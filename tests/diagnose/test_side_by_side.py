@@ -2,6 +2,8 @@
 
 import os
 import pickle
+import subprocess
+import sys
 from dataclasses import dataclass
 
 import numpy as np
@@ -96,3 +98,30 @@ def test_errors_are_raised_here(jobs: int) -> None:
 
     with processes(jobs), pytest.raises(ValueError, match="five"):
         side_by_side(item, range(9))
+
+
+ORPHAN = """
+import os, sys, time
+from statorhom.diagnose.side_by_side import processes, side_by_side
+parent = os.getpid()
+def item(number):
+    if os.getpid() == parent:
+        time.sleep(0.2)
+        os.kill(parent, 9)
+    print(os.getpid(), flush=True)
+    time.sleep(0.4)
+    return bytes(300_000)
+with processes(2):
+    side_by_side(item, range(400))
+"""
+
+
+@needs_fork
+def test_children_of_a_killed_parent_end() -> None:
+    """Neither blocked on a pipe that nobody reads, nor busy with all that was left."""
+    # the child holds the pipe of standard output: this returns when it is gone
+    done = subprocess.run(
+        [sys.executable, "-c", ORPHAN], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert done.returncode == -9
+    assert len(done.stdout.split()) <= 2

@@ -64,12 +64,18 @@ class DeclaredTest:
 
     def residual(self, changes: Mapping[str, float]) -> Residual | None:
         """With the constants' logarithms changed; None where a mode has no partner or no material is like that."""
-        orders = sorted({name[0] for name in self.true_hz})
         try:
             stage = self.modes.stage.changed(changes)
-            modes = stage.modes(orders, self.highest_hz) if changes else self.modes
+            return self._of(stage.modes(self.orders, self.highest_hz) if changes else self.modes)
         except StatorhomError:
             return None
+
+    @property
+    def orders(self) -> list[int]:
+        """Harmonics of its lines."""
+        return sorted({name[0] for name in self.true_hz})
+
+    def _of(self, modes: DeclaredModes) -> Residual | None:
         partners = _partners(self.true_hz, modes)
         if len(partners) < sum(map(len, self.true_hz.values())):
             return None
@@ -78,7 +84,7 @@ class DeclaredTest:
         owner = np.array([keys.index(key) for _, key in partners])
         slopes = {name: column[owner] for name, column in modes.slopes(keys).items()}
         values = np.log(np.array([f for f, _ in partners]) / declared)
-        return Residual(self.name, keys, values, owner, slopes, stage.spreads)
+        return Residual(self.name, keys, values, owner, slopes, modes.stage.spreads)
 
 
 def declared_test(case: Case, measured: Measured, density: MeshDensity | None) -> DeclaredTest | None:

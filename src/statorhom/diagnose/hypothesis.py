@@ -70,10 +70,6 @@ class Hypothesis(AnyHypothesis):
     # the last point's features: whoever pairs, polishes and judges asks for the same ones in turn
     _last: dict[bytes, tuple[list[Feature], Told]] = field(default_factory=dict, init=False, repr=False)
 
-    def __getstate__(self) -> dict[str, object]:
-        """What is sent to another process: not what it remembers."""
-        return {**self.__dict__, "_last": {}}
-
     def mark(self, z: FloatArray) -> tuple[tuple[str, tuple[float, ...]], ...]:
         """What the actions depend on."""
         values = self.effect_values(z)

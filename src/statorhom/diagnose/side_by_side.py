@@ -10,6 +10,7 @@ from __future__ import annotations
 import gc
 import io
 import multiprocessing
+import os
 import pickle
 import sys
 import warnings
@@ -72,6 +73,7 @@ class _Queue:
 
     def __init__(self, count: int) -> None:
         self._count = count
+        self.owner = os.getpid()
         self._next = FORK.Value("l", 0)
 
     def __iter__(self) -> Iterator[int]:
@@ -92,7 +94,8 @@ class _Child(Generic[_T, _R]):
     ) -> None:
         self._known = known
         self._end, theirs = FORK.Pipe(duplex=False)
-        self._process = FORK.Process(target=_work, args=(function, items, queue, known, theirs), daemon=True)
+        task = function, items, queue, known
+        self._process = FORK.Process(target=_work, args=(*task, theirs, self._end), daemon=True)
         with warnings.catch_warnings():
             # no thread holds anything that the child asks for: it computes, and writes nowhere
             warnings.simplefilter("ignore", DeprecationWarning)
@@ -119,14 +122,19 @@ def _work(
     queue: _Queue,
     known: dict[int, object],
     end: Connection,
+    parents: Connection,
 ) -> None:
-    """Do items until one fails, which is for the parent, and send what was found."""
+    """Do items until one fails, which is for the parent, and send what was found; stop when the parent is gone."""
     gc.disable()  # it would touch, and so copy, all that is shared
+    parents.close()  # or what nobody reads any more would still have a reader
     found: list[tuple[int, bytes]] = []
     with suppress(Exception):
         for number in queue:
             found.append((number, _written(function(items[number]), known)))
-    end.send(found)
+            if os.getppid() != queue.owner:
+                return
+    with suppress(OSError):
+        end.send(found)
 
 
 def _written(result: object, known: dict[int, object]) -> bytes:
