@@ -4,7 +4,8 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from statorhom.identify.marginal import Z95, Marginals
+from statorhom.identify.marginal import Marginals
+from statorhom.materials.typical_ranges import Z95
 
 
 def marginals(median, below, above, logarithmic):

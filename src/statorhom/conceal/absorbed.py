@@ -7,15 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from statorhom.conceal.declared_residual import DeclaredTest, Residual
 
-FREQUENCY_SD, MESH_SD = (
-    3e-4,
-    2e-3,
-)  # relative: of a measured frequency; of a name's mesh error, after extrapolation
+# relative: of a measured frequency; of a name's mesh error, after extrapolation
+FREQUENCY_SD, MESH_SD = 3e-4, 2e-3
 ROUNDS = 12
 SMALL = 0.01  # a step of a constant's logarithm that changes modes as the slopes say
 LARGEST = 0.5  # step of a constant's logarithm
@@ -40,12 +39,12 @@ class Misfit:
     names: tuple[str, ...]
     changes: np.ndarray
 
-    @property
+    @cached_property
     def values(self) -> np.ndarray:
         """All tests' ln(f true/f declared)."""
         return np.concatenate([r.values for r in self.residuals])
 
-    @property
+    @cached_property
     def slopes(self) -> np.ndarray:
         """Of the declared ln f by the constants' logarithms, by mode and constant."""
         return np.vstack(
@@ -55,18 +54,18 @@ class Misfit:
             ]
         )
 
-    @property
+    @cached_property
     def weights(self) -> np.ndarray:
         """Inverse covariance of the frequencies: noise of its own, a mesh's error of its name."""
         owner = np.concatenate([1000 * i + r.owner for i, r in enumerate(self.residuals)])
         return np.linalg.inv(FREQUENCY_SD**2 * np.eye(len(owner)) + MESH_SD**2 * (owner[:, None] == owner))
 
-    @property
+    @cached_property
     def spreads(self) -> np.ndarray:
         """Standard deviations of the constants' logarithms before any measurement."""
         return np.array([next(r.spreads[n] for r in self.residuals if n in r.spreads) for n in self.names])
 
-    @property
+    @cached_property
     def merit(self) -> float:
         """χ² with what is known of the constants."""
         return self._merit(self.values, self.changes)
@@ -74,20 +73,21 @@ class Misfit:
     def _merit(self, values: np.ndarray, changes: np.ndarray) -> float:
         return float(values @ self.weights @ values + np.sum((changes / self.spreads) ** 2))
 
+    @cached_property
     def step(self) -> np.ndarray:
         """Of the constants' logarithms to the least merit, as the slopes say."""
         J, W, known = self.slopes, self.weights, self.spreads**-2
         return np.linalg.solve(J.T @ W @ J + np.diag(known), J.T @ W @ self.values - known * self.changes)
 
-    @property
+    @cached_property
     def left(self) -> np.ndarray:
         """What that step leaves of the values."""
-        return self.values - self.slopes @ self.step()
+        return self.values - self.slopes @ self.step
 
-    @property
+    @cached_property
     def left_sd(self) -> float:
         """Norm of rᵀPr (physics.md §7.4): of what is left and of how unusual the constants became, in sd."""
-        return float(np.sqrt(self._merit(self.left, self.changes + self.step())))
+        return float(np.sqrt(self._merit(self.left, self.changes + self.step)))
 
 
 def absorbed(tests: Sequence[DeclaredTest]) -> Misfit | None:
@@ -128,7 +128,7 @@ def _settled(misfit: Misfit, tests: Sequence[DeclaredTest]) -> Misfit:
 
 def _nearer(misfit: Misfit, tests: Sequence[DeclaredTest]) -> Misfit | None:
     """After one step; None where it is small or no part of it gains."""
-    step = misfit.step()
+    step = misfit.step
     size = float(np.abs(step).max())
     if size < SMALL:
         return None

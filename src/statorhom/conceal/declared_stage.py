@@ -16,6 +16,7 @@ from statorhom.geometry.stator import stator_geometry
 from statorhom.materials.density import REGION_OF_STEP, Weighing, densities
 from statorhom.materials.symmetry import SYMMETRIES, constant_names
 from statorhom.materials.typical import prior_range
+from statorhom.materials.typical_ranges import Z95
 from statorhom.mesh import MeshDensity, mesh_step
 from statorhom.model.affine import AffineModel, Material, Materials, assemble, hooke_coefficients
 from statorhom.model.assembly import HOOKE_ENTRIES
@@ -24,7 +25,6 @@ from statorhom.model.stator_mode import StatorMode
 from statorhom.study.geometry_file import GeometryFile
 from statorhom.study.study_file import StudyFile
 
-Z95 = 1.6449  # of a normal distribution: between its middle and its 95 % quantile
 STEP = 1e-4  # relative, for derivatives by constants
 
 Key = tuple[int, int, int]

@@ -48,13 +48,13 @@ class Start:
     rough: Refit | None = None
 
 
+Trial = tuple[float, list[Start]]  # gain of the scan, and where refits begin
+
+
 def shared_by(starts: Sequence[Start]) -> list[object]:
     """What refits from there refer to (`statorhom.diagnose.side_by_side`)."""
     hypotheses = [start.hypothesis for start in starts]
     return [*hypotheses, *(one for hypothesis in hypotheses for one in hypothesis.shared)]
-
-
-Trial = tuple[float, list[Start]]  # gain of the scan, and where refits begin
 
 
 def is_poor(found: Refit) -> bool:

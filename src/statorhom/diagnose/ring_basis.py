@@ -22,7 +22,6 @@ from statorhom.model.stator_mode import StatorMode, name_modes
 
 DEPENDENT = 1e-7  # part of the norm by which a snapshot must differ from the others
 REACH = 1.15  # snapshots reach this much higher than the band
-SNAPSHOTS = 3  # that are worth a process
 MOST = 10  # modes of one problem per snapshot
 
 Gradient = Mapping[str, tuple[np.ndarray, float]]

@@ -14,8 +14,8 @@ from scipy.optimize import nnls
 
 from statorhom.errors import IdentificationError
 from statorhom.identify.bounds import Array, Bounds, read_only
-from statorhom.identify.marginal import Z95
 from statorhom.identify.truncated_normal import boxed_draws
+from statorhom.materials.typical_ranges import Z95
 from statorhom.results.schema import Interval
 
 # Measured loss factors of one machine, taken by different hands, scatter by this much: suspension, cables, windowing.

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from statorhom.identify.bounds import Array
+from statorhom.materials.typical_ranges import Z95
 
-# the 95 % quantile of the standard normal distribution: a 90 % range reaches from -Z95 to Z95
-Z95 = 1.6448536269514722
 # distance from the median, in prior standard deviations, over which the two slopes blend
 BLEND = 0.5
 

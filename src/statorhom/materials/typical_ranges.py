@@ -16,7 +16,8 @@ from statorhom.study.regions import COUPON
 
 # the limits of a modulus lie this many prior standard deviations from the middle of its range
 _REACH = 4.0
-_Z95 = NormalDist().inv_cdf(0.95)
+# a normal distribution's 90 % range reaches so many standard deviations from its middle
+Z95 = NormalDist().inv_cdf(0.95)
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ class TypicalRegion:
             return 0.0, {"nu_p": self.highest_nu_p, "nu_pz": self.highest_nu_pz}.get(role, 0.49)
         ceiling = self.youngs_ceiling if role.startswith("E") else self.shear_ceiling
         low, high = self.ranges[role]
-        spread = (high / low) ** (_REACH / (2.0 * _Z95))
+        spread = (high / low) ** (_REACH / (2.0 * Z95))
         middle = math.sqrt(low * high)
         return middle / spread, min(middle * spread, ceiling)
 
