@@ -86,7 +86,7 @@ def found_beside(
     monkeypatch.setattr(module, "nothing", lambda _: SimpleNamespace(log_evidence=0.0))
     monkeypatch.setattr(module, "left_over", lambda *_: SimpleNamespace(p_value=left_p))
     monkeypatch.setattr(module, "second_effects", lambda *_: [SimpleNamespace(refit=None)])
-    monkeypatch.setattr(module, "held_out", lambda *_: held)
+    monkeypatch.setattr(module, "unseen_modes", lambda *_: held)
     monkeypatch.setattr(module, "too_few", lambda _: few)
     base = SimpleNamespace(refit=None, free=None)
     leading: Any = SimpleNamespace(base=base, scan=Scan((), 1e-4))

@@ -28,7 +28,8 @@ from statorhom.diagnose.explanations import (
     nothing,
 )
 from statorhom.diagnose.gross_rows import without_gross_rows
-from statorhom.diagnose.held_out import HeldOut, held_out
+from statorhom.diagnose.held_out import HeldOut
+from statorhom.diagnose.held_out_lines import unseen_modes
 from statorhom.diagnose.held_out_name import held_out_names, renames_alone
 from statorhom.diagnose.leading_effects import Leading, leading_effects
 from statorhom.diagnose.measured import MeasuredTest
@@ -170,7 +171,7 @@ def _evidence(
     over = own - none.log_evidence
     unseen: HeldOut | None = None
     if best.candidates and over > 0:
-        unseen = (held_out_names if renames_alone(best) else held_out)(leading.base.refit, best)
+        unseen = (held_out_names if renames_alone(best) else unseen_modes)(leading.base.refit, best)
     # compared in the model that all share: the best one's own basis is not its rivals'
     common = found[0] if found else best
     return Evidence(

@@ -50,6 +50,15 @@ class Feature:
         return held_down(raw) if most is None else most * tanh(raw / most)
 
     @property
+    def steepness(self) -> float:
+        """Derivative of the residual by the misfit in standard deviations."""
+        raw = (self.measured - self.predicted) / self.sd
+        most = MOST.get(self.kind)
+        if most is not None:
+            return 1.0 - tanh(raw / most) ** 2
+        return KNEE / (KNEE + max(0.0, abs(raw) - LINEAR))
+
+    @property
     def stray(self) -> bool:
         """Whether it stands for a named mode that has no partner."""
         return self.lost and self.measured > LOST_UNNAMED

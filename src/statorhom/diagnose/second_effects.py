@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from statorhom.diagnose.decision import MAX_T_P, OVER_NOTHING, too_few
 from statorhom.diagnose.explanations import ADEQUATE, PAIR_GAIN, Explanation, nothing
-from statorhom.diagnose.held_out import held_out
+from statorhom.diagnose.held_out_lines import unseen_modes
 from statorhom.diagnose.leading_effects import Leading
 from statorhom.diagnose.refit_starts import WORTH, in_order
 from statorhom.diagnose.scan import Scan, left_over
@@ -60,6 +60,6 @@ def confirmed_pairs(
     if not pairs:
         return [], True
     # both effects have to hold: the second one against the first alone
-    unseen = held_out(first.refit, pairs[0])
+    unseen = unseen_modes(first.refit, pairs[0])
     confirmed = unseen.falls and not unseen.worsens
     return (pairs, confirmed) if confirmed or (too_few(unseen) and not enough) else ([], True)
