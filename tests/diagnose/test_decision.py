@@ -106,6 +106,14 @@ def test_few_modes_and_evidence_far_ahead_name() -> None:
     assert decide(replace(seen, over_nothing=19.0)) == "ambiguous"
 
 
+def test_lines_beside_their_mates_name_where_the_evidence_is_far_ahead() -> None:
+    lines = replace(GOOD, held_out=replace(FALLS, of_lines=True))
+    assert not lines.predicts
+    assert decide(lines) == "named"
+    assert decide(replace(lines, over_others=4.0)) == "ambiguous"
+    assert decide(replace(lines, over_nothing=15.0)) == "ambiguous"
+
+
 def test_an_adequate_declared_model_wants_more_evidence() -> None:
     adequate = replace(GOOD, nothing_adequacy=0.4, over_nothing=12.0)
     assert decide(adequate) == "none"

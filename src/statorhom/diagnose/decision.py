@@ -67,7 +67,8 @@ class Evidence:
     @property
     def predicts(self) -> bool:
         """Rule 3."""
-        return self.held_out is not None and self.held_out.falls and not self.held_out.worsens
+        unseen = self.held_out
+        return unseen is not None and unseen.falls and not unseen.worsens and not unseen.of_lines
 
     @property
     def evident(self) -> bool:
@@ -88,8 +89,11 @@ class Evidence:
 
 
 def too_few(unseen: HeldOut) -> bool:
-    """Whether too few modes show what is missing for held-out ones to confirm or to contradict it."""
-    return unseen.informative < FEW and not unseen.worsens
+    """Whether too few modes show what is missing for held-out ones to confirm or to contradict it.
+
+    A mode's line fits with its mate by whatever parts them: it is no mode of its own.
+    """
+    return (unseen.informative < FEW or unseen.of_lines) and not unseen.worsens
 
 
 def is_chance(p_value: float, unpaired: bool) -> bool:

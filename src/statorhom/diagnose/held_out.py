@@ -62,6 +62,7 @@ class HeldOut:
     noise : what the measurement, the mesh and the modes that were seen leave uncertain; errors weigh by it.
     what : one line for the report.
     least_fall : part by which errors fall at least where an explanation predicts better.
+    of_lines : whether of the modes only one line of two was unseen.
     """
 
     groups: tuple[Group, ...]
@@ -70,6 +71,7 @@ class HeldOut:
     noise: tuple[float, ...]
     what: str = WHAT
     least_fall: float = LEAST_FALL
+    of_lines: bool = False
 
     @property
     def informative(self) -> int:

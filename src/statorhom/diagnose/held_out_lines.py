@@ -62,6 +62,7 @@ def held_out_lines(base: Refit, explanation: Explanation) -> HeldOut:
         tuple(100 * after[line].error for line in both),
         tuple(100 * _noise(before[line], after[line]) for line in both),
         WHAT,
+        of_lines=True,
     )
 
 
