@@ -26,7 +26,11 @@ def first(misfit: float) -> Explanation:
 
 
 def tried(
-    monkeypatch: pytest.MonkeyPatch, one: Explanation, scan: Scan, gains: tuple[float, ...] = ()
+    monkeypatch: pytest.MonkeyPatch,
+    one: Explanation,
+    scan: Scan,
+    gains: tuple[float, ...] = (),
+    adequacy: float = 0.5,
 ) -> tuple[list[str], float, list[Explanation]]:
     """Labels of the favourites, the limit of their objective, and what is found."""
     seen: dict[str, Any] = {}
@@ -40,6 +44,7 @@ def tried(
         seen["limit"] = trials[-1]
         return [Explanation(one.candidates, base, one.log_evidence + gain) for gain in gains]
 
+    monkeypatch.setattr(Explanation, "adequacy_but_one", adequacy)
     monkeypatch.setattr(module, "in_order", in_order)
     monkeypatch.setattr(module, "refits", refits)
     found = second_effects(one, may_be_added(one, scan), {})
@@ -61,6 +66,44 @@ def test_few_are_tried(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_what_gains_too_little_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     scan = Scan((signature("ovality", 50.0),), 0.0)
     assert tried(monkeypatch, first(200.0), scan)[1] == 200.0 - 2 * PAIR_GAIN
+
+
+def pair(objective: float, *, breaks: bool = True, changes: bool = True) -> Explanation:
+    """Of two effects, one of which breaks the symmetry, and one changes materials."""
+    actions = (
+        SimpleNamespace(changes=breaks or None, materials=None),
+        SimpleNamespace(changes=None, materials=changes or None),
+    )
+    hypothesis = SimpleNamespace(actions=lambda _: actions)
+    refit: Any = SimpleNamespace(objective=objective, hypothesis=hypothesis, z=None)
+    candidates: Any = ("lump", "sheets")
+    return Explanation(candidates, refit, -objective)
+
+
+def test_pairs_are_compared_at_the_materials_that_one_of_them_changes(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def sharpened(e: Explanation, *, leads: bool) -> Explanation:
+        assert not leads
+        return pair(e.refit.objective - 100.0)
+
+    monkeypatch.setattr(module, "sharpened", sharpened)
+    monkeypatch.setattr(module, "explained", lambda r, _: pair(r.objective))
+    best, next_best, third = pair(130.0), pair(140.0), pair(150.0)
+    rigid, even = pair(110.0, changes=False), pair(120.0, breaks=False)
+    found = module._in_own_models([rigid, third, best, even, next_best], {})
+    assert [e.log_evidence for e in found] == [-110.0, -150.0, -30.0, -120.0, -40.0]
+
+
+@pytest.mark.parametrize(("adequacy", "own"), [(1e-9, True), (0.5, False)])
+def test_where_the_first_explains_enough_no_pair_gets_a_model(
+    monkeypatch: pytest.MonkeyPatch, adequacy: float, own: bool
+) -> None:
+    seen: list[bool] = []
+    monkeypatch.setattr(module, "_in_own_models", lambda pairs, _: seen.append(True) or pairs)
+    scan = Scan((signature("ovality", 50.0),), 0.0)
+    tried(monkeypatch, first(200.0), scan, (PAIR_GAIN + 1,), adequacy)
+    assert bool(seen) == own
 
 
 def test_a_second_effect_has_to_add_evidence(monkeypatch: pytest.MonkeyPatch) -> None:

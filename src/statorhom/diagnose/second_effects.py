@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from statorhom.diagnose.decision import MAX_T_P, OVER_NOTHING, too_few
-from statorhom.diagnose.explanations import ADEQUATE, PAIR_GAIN, Explanation, nothing
+from statorhom.diagnose.explanations import ADEQUATE, PAIR_GAIN, Explanation, explained, nothing
 from statorhom.diagnose.held_out_lines import unseen_modes
 from statorhom.diagnose.leading_effects import Leading
 from statorhom.diagnose.refit_starts import WORTH, in_order
 from statorhom.diagnose.scan import Scan, left_over
+from statorhom.diagnose.sharper import sharpened
 from statorhom.diagnose.single_effects import refits
 
 SECONDS = 5  # effects that are tried beside the first
+OWN_MODELS = 2  # pairs that get models of their own before they are compared
 
 
 def may_be_added(first: Explanation, scan: Scan) -> Scan:
@@ -33,8 +36,25 @@ def second_effects(first: Explanation, left: Scan, counts: dict[str, int]) -> li
     favourites = left.worth_refitting(SECONDS, WORTH)[:SECONDS]
     base = first.refit
     found = refits(base, in_order(base, left, favourites), counts, base.objective - 2 * PAIR_GAIN)
+    if first.adequacy_but_one < ADEQUATE:
+        found = _in_own_models(found, counts)
     enough = [e for e in found if e.log_evidence > first.log_evidence + PAIR_GAIN]
     return sorted(enough, key=lambda e: -e.log_evidence)
+
+
+def _in_own_models(pairs: Sequence[Explanation], counts: dict[str, int]) -> list[Explanation]:
+    """Pairs of which one effect breaks the symmetry of materials that the other one changes, each at its own materials.
+
+    What breaks the symmetry is solved at the materials of the first alone: where these were far off, the right pair
+    explains less than a wrong effect alone.
+    """
+    far = sorted((e for e in pairs if _breaks_what_changes(e)), key=lambda e: e.refit.objective)[:OWN_MODELS]
+    return [e if e not in far else explained(sharpened(e, leads=False).refit, counts) for e in pairs]
+
+
+def _breaks_what_changes(pair: Explanation) -> bool:
+    actions = pair.refit.hypothesis.actions(pair.refit.z)[: len(pair.candidates)]
+    return any(a.changes for a in actions) and any(a.materials for a in actions)
 
 
 def confirmed_pairs(

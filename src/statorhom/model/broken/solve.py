@@ -209,7 +209,9 @@ def _eigenpairs(coupled: Coupled, basis: SymmetricBasis) -> tuple[np.ndarray, np
     try:
         values, x = lowest_coupled((K + K.T) / 2, (M + M.T) / 2, top, basis.shift, expected)
     except np.linalg.LinAlgError:
-        raise SolverError("the changes leave a mass that is not positive; check their magnitudes") from None
+        raise SolverError(
+            "the changes leave a mass or a stiffness that is not positive; check their magnitudes"
+        ) from None
     return values, x if change is None else change @ x
 
 
