@@ -72,9 +72,16 @@ class Evidence:
 
     @property
     def evident(self) -> bool:
-        """Whether the evidence alone names it, where the few modes that show it are predicted better than before."""
-        far = self.over_nothing > FAR_OVER_NOTHING and self.over_others > FAR_OVER_OTHERS
-        return far and self.held_out is not None and self.held_out.improves
+        """Whether the evidence alone names it, where the few modes that show it are predicted better than before.
+
+        Lines beside their mates confirm that something parts them, and say little of which of two rivals does.
+        """
+        unseen = self.held_out
+        if unseen is None or self.over_others <= FAR_OVER_OTHERS:
+            return False
+        if unseen.of_lines:
+            return unseen.falls and not unseen.worsens
+        return unseen.improves and self.over_nothing > FAR_OVER_NOTHING
 
     @property
     def sound(self) -> bool:
