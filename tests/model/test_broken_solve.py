@@ -255,7 +255,7 @@ def test_surface_motion_is_the_whole_shapes():
 
 def test_more_mass_taken_away_than_there_is_is_one_clear_error():
     w = stator("stack")
-    with pytest.raises(SolverError, match="mass that is not positive"):
+    with pytest.raises(SolverError, match="mass or a stiffness that is not positive"):
         solve_broken(basis_of("stack"), [lump(w.half, ANGLE, HEIGHT, -50.0)])
 
 
