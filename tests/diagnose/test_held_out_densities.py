@@ -10,7 +10,7 @@ import pytest
 import statorhom.diagnose.held_out as module
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.feature import Feature
-from statorhom.diagnose.held_out import WEIGHED, _Error, held_out
+from statorhom.diagnose.held_out import WEIGHED, Error, held_out
 
 MODES = tuple(("wound-free", (r, 0, 0)) for r in range(2, 8))
 KNOWN, SD = 7700.0, 90.0
@@ -29,9 +29,9 @@ def answered(
     """Held-out errors (before, after) of the modes and of the densities; the density that the explanation has."""
     base, moved = refit(8600.0), refit(after)
 
-    def errors(full: Any, fold: frozenset[Any]) -> dict[Any, _Error]:
+    def errors(full: Any, fold: frozenset[Any]) -> dict[Any, Error]:
         i = 0 if full is base else 1
-        known = {True: _Error(weighed[i], 0.6, 0.0), False: _Error(modes[i], 0.1, 0.0)}
+        known = {True: Error(weighed[i], 0.6, 0.0), False: Error(modes[i], 0.1, 0.0)}
         return {(g, False): known[g == WEIGHED] for g in fold}
 
     monkeypatch.setattr(module, "_errors", errors)

@@ -45,18 +45,20 @@ class Feature:
     @property
     def residual(self) -> float:
         """In standard deviations, large ones held down."""
-        raw = (self.measured - self.predicted) / self.sd
-        most = MOST.get(self.kind)
+        raw, most = self._deviation, MOST.get(self.kind)
         return held_down(raw) if most is None else most * tanh(raw / most)
 
     @property
     def steepness(self) -> float:
         """Derivative of the residual by the misfit in standard deviations."""
-        raw = (self.measured - self.predicted) / self.sd
-        most = MOST.get(self.kind)
+        raw, most = self._deviation, MOST.get(self.kind)
         if most is not None:
             return 1.0 - tanh(raw / most) ** 2
         return KNEE / (KNEE + max(0.0, abs(raw) - LINEAR))
+
+    @property
+    def _deviation(self) -> float:
+        return (self.measured - self.predicted) / self.sd
 
     @property
     def stray(self) -> bool:

@@ -153,7 +153,7 @@ def _predicted(
     used = [fold for fold in folds if fold and (len(fold) < len(groups) or fold == {WEIGHED})]
     fits = [(r, fold) for r in (base, explanation.refit) for fold in used]
     errors = side_by_side(lambda fit: _errors(*fit), fits)
-    rows: dict[Part, tuple[_Error, _Error]] = {}
+    rows: dict[Part, tuple[Error, Error]] = {}
     for before, after in zip(errors[: len(used)], errors[len(used) :], strict=True):
         rows |= {part: (before[part], after[part]) for part in before if part in after}
         rows |= {part: (_lacking(e), e) for part, e in after.items() if part[0] in lacking[0]}
@@ -165,7 +165,7 @@ def _predicted(
         tuple(group for group, _ in told),
         tuple(rows[g][0].error for g in told),
         tuple(rows[g][1].error for g in told),
-        tuple(_noise_of(*rows[g]) for g in told),
+        tuple(noise_of(*rows[g]) for g in told),
         f"{WHAT}; one that a model has not got counts as {LACKING} % off" if lone else WHAT,
         LEAST_FALL if _has_shapes(base) else OF_TABLES,
     )
@@ -213,30 +213,30 @@ def groups_of(base: Refit) -> list[Group]:
 
 
 @dataclass(frozen=True)
-class _Error:
-    """Of a part of a group in percent: the error, its noise, and what other groups leave open of the prediction."""
+class Error:
+    """Of what was held out, in percent: the error, its noise, and what the rest leaves open of the prediction."""
 
     error: float
     noise: float
     spread: float
 
 
-def _noise_of(before: _Error, after: _Error) -> float:
-    """What the errors of a part are compared with."""
+def noise_of(before: Error, after: Error) -> float:
+    """What the errors of two explanations are compared with."""
     return float(np.hypot(before.noise, max(before.spread, after.spread)))
 
 
-def _differ(before: _Error, after: _Error) -> bool:
+def _differ(before: Error, after: Error) -> bool:
     """Whether two predictions say different things: where they agree, neither can be the better one."""
-    return abs(before.error - after.error) > DIFFERENT * _noise_of(before, after)
+    return abs(before.error - after.error) > DIFFERENT * noise_of(before, after)
 
 
-def _lacking(known: _Error) -> _Error:
+def _lacking(known: Error) -> Error:
     """Of a model that has no such mode, beside one that has."""
     return replace(known, error=LACKING)
 
 
-def _errors(full: Refit, fold: frozenset[Group]) -> dict[Part, _Error]:
+def _errors(full: Refit, fold: frozenset[Group]) -> dict[Part, Error]:
     """Errors of a fold after a fit without it."""
     hypothesis: AnyHypothesis = replace(full.hypothesis, left_out=fold)
     try:
@@ -245,7 +245,7 @@ def _errors(full: Refit, fold: frozenset[Group]) -> dict[Part, _Error]:
         spreads = _spreads(trained)
     except StatorhomError:
         return {}
-    return {part: _Error(*pair, spreads.get(part, 0.0)) for part, pair in known.items()}
+    return {part: Error(*pair, spreads.get(part, 0.0)) for part, pair in known.items()}
 
 
 def _spreads(trained: Refit[_H]) -> dict[Part, float]:

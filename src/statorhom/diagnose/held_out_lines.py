@@ -7,7 +7,7 @@ line is unseen. To first order about the optimum.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -15,8 +15,8 @@ import numpy.typing as npt
 from statorhom.diagnose.decision import too_few
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.feature import Feature
-from statorhom.diagnose.held_out import Group, HeldOut, held_out
-from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.held_out import Error, Group, HeldOut, held_out, noise_of
+from statorhom.diagnose.refit import Refit, covariance_of
 
 WHAT = "one line of each doublet, predicted from the other line and from all other modes"
 QUARTER = 0.25  # of the split of λ, by which a line's ln f lies beside the mean
@@ -31,15 +31,6 @@ class _Line:
     left: float
     sd: float
     slopes: FloatArray
-
-
-@dataclass(frozen=True)
-class _Predicted:
-    """Of an unseen line: its error, its own noise, and what the seen ones leave open, as parts of its frequency."""
-
-    error: float
-    noise: float
-    spread: float
 
 
 def unseen_modes(base: Refit, explanation: Explanation) -> HeldOut:
@@ -58,19 +49,15 @@ def held_out_lines(base: Refit, explanation: Explanation) -> HeldOut:
     both = [line for line in before if line in after and line[0] not in aside]
     return HeldOut(
         tuple(group for group, _ in both),
-        tuple(100 * before[line].error for line in both),
-        tuple(100 * after[line].error for line in both),
-        tuple(100 * _noise(before[line], after[line]) for line in both),
+        tuple(before[line].error for line in both),
+        tuple(after[line].error for line in both),
+        tuple(noise_of(before[line], after[line]) for line in both),
         WHAT,
         of_lines=True,
     )
 
 
-def _noise(before: _Predicted, after: _Predicted) -> float:
-    return float(np.hypot(before.noise, max(before.spread, after.spread)))
-
-
-def _errors(r: Refit) -> Iterator[tuple[tuple[Group, int], _Predicted]]:
+def _errors(r: Refit) -> Iterator[tuple[tuple[Group, int], Error]]:
     """Of both lines of every doublet."""
     features = r.hypothesis.features(r.z)
     residuals = r.hypothesis.residuals(r.z)
@@ -102,14 +89,13 @@ def _lines(features: list[Feature], jacobian: FloatArray) -> list[_Line]:
     ]
 
 
-def _predicted(
-    r: Refit, residuals: FloatArray, jacobian: FloatArray, seen: _Line, unseen: _Line
-) -> _Predicted:
+def _predicted(r: Refit, residuals: FloatArray, jacobian: FloatArray, seen: _Line, unseen: _Line) -> Error:
     """The unseen line after a Gauss–Newton step of the rest."""
     J = np.vstack([jacobian, -seen.slopes / seen.sd])
     left = np.r_[residuals, seen.left / seen.sd]
-    rest = replace(r, jacobian=J)
-    covariance = rest.covariance
-    step = -covariance @ (J.T @ left + r.hypothesis.prior_weights * r.z)
+    weights = r.hypothesis.prior_weights
+    covariance = covariance_of(J, weights)
+    step = -covariance @ (J.T @ left + weights * r.z)
     error = abs(unseen.left - float(unseen.slopes @ step))
-    return _Predicted(error, unseen.sd, float(np.sqrt(unseen.slopes @ covariance @ unseen.slopes)))
+    spread = float(np.sqrt(unseen.slopes @ covariance @ unseen.slopes))
+    return Error(100 * error, 100 * unseen.sd, 100 * spread)

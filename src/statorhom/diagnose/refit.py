@@ -51,14 +51,18 @@ class Refit(Generic[H]):
     @property
     def covariance(self) -> FloatArray:
         """Of all coordinates."""
-        information = self.jacobian.T @ self.jacobian
-        return np.asarray(np.linalg.inv(_precision(information, self.hypothesis.prior_weights)))
+        return covariance_of(self.jacobian, self.hypothesis.prior_weights)
 
     @property
     def log_evidence(self) -> float:
         """Laplace's, up to what all hypotheses share."""
         weights = self.hypothesis.prior_weights
         return -0.5 * self.objective + log_volume(self.jacobian.T @ self.jacobian, weights)
+
+
+def covariance_of(jacobian: FloatArray, weights: FloatArray) -> FloatArray:
+    """Of the coordinates, to first order about an optimum; `weights` are the prior's as of `log_volume`."""
+    return np.asarray(np.linalg.inv(_precision(jacobian.T @ jacobian, weights)))
 
 
 def log_volume(information: FloatArray, weights: FloatArray) -> float:
