@@ -109,9 +109,7 @@ class ArcGroup:
         return known[2]
 
     def _solved(self, even: RingModes, joint: Joint) -> Weakened:
-        assert joint.arc is not None
-        half = Sectors(np.array([[0.0, np.pi / self.waves.slots]]), self.waves.slots)
-        share = half.share_of_arc(-0.5 * joint.arc[1], 0.5 * joint.arc[1])
+        share = arc_share(joint, self.waves.slots)[None, :]
         change = np.zeros((len(self.waves), len(self.waves)))
         for stiffness, pieces in zip((joint.normal, joint.tangential), self.pieces, strict=True):
             weights = np.repeat((joint.ratio - 1.0) * stiffness * share, len(pieces), axis=0)
@@ -119,6 +117,13 @@ class ArcGroup:
         count = len(self.waves.cosine)
         blocks = ((self.cosine, change[:count, :count]), (self.sine, change[count:, count:]))
         return Weakened(even, tuple(_family(even, numbers, block) for numbers, block in blocks))
+
+
+def arc_share(joint: Joint, slots: int) -> np.ndarray:
+    """(2 N,) share of every half pitch that an arc of the joint's width around θ = 0 covers."""
+    assert joint.arc is not None
+    half = Sectors(np.array([[0.0, np.pi / slots]]), slots)
+    return half.share_of_arc(-0.5 * joint.arc[1], 0.5 * joint.arc[1])[0]
 
 
 def _family(even: RingModes, numbers: tuple[int, ...], change: np.ndarray) -> Family:

@@ -15,6 +15,7 @@ import numpy as np
 
 from statorhom.diagnose.joint_arc import ArcGroup, arc_groups
 from statorhom.diagnose.joint_fields import with_local_fields
+from statorhom.diagnose.joint_training import with_arcs
 from statorhom.diagnose.ring_basis import RingBasis, RingModes, ring_basis
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Materials, assemble
@@ -126,7 +127,8 @@ def joint_basis(
     highest_hz: float,
     orders: Sequence[int],
     *,
-    with_arcs: bool,
+    may_differ: bool,
+    arcs: Sequence[Joint] = (),
 ) -> JointBasis:
     """Bases of a joint.
 
@@ -137,14 +139,17 @@ def joint_basis(
     materials : whose modes span the bases.
     highest_hz : upper end of the band.
     orders : harmonics that are named.
-    with_arcs : whether the contact may differ around the stator.
+    may_differ : whether the contact may be weaker over an arc.
+    arcs : around θ = 0, near which it is predicted as the mesh has it; others, and all without, roughly.
     """
     apart = split(mesh, regions)
     pieces = (contact(apart, regions, 1.0, 0.0).pieces, contact(apart, regions, 0.0, 1.0).pieces)
     unit = [p.matrix(np.ones(len(p))) for p in pieces]
     joints = [k * (unit[0] + unit[1]) for k in LADDER]
     ring = ring_basis(assemble(apart), [materials], highest_hz, orders, joints)
-    if with_arcs:
+    if arcs:
+        ring = with_arcs(ring, pieces, materials, arcs)
+    elif may_differ:
         ring = with_local_fields(ring, materials, unit[0] + unit[1])
     springs = []
     for problem in ring.problems:

@@ -53,11 +53,12 @@ def with_local_fields(ring: RingBasis, materials: Materials, joint: sp.csr_array
 def _missing(ring: RingBasis, order: int) -> list[RingProblem]:
     """Problems of a harmonic that no named mode is of, their bases empty."""
     known = {(p.space.axial, p.space.parity) for p in ring.problems if p.space.order == order}
-    return [
-        RingProblem(s, np.zeros((s.size, 0)), {}, {}, np.zeros((0, 0)))
-        for s in harmonic_spaces(ring.model.mesh, order)
-        if (s.axial, s.parity) not in known
-    ]
+    return [unsolved(s) for s in harmonic_spaces(ring.model.mesh, order) if (s.axial, s.parity) not in known]
+
+
+def unsolved(space: Harmonic) -> RingProblem:
+    """A problem whose basis is empty."""
+    return RingProblem(space, np.zeros((space.size, 0)), {}, {}, np.zeros((0, 0)))
 
 
 def _fields(problems: tuple[RingProblem, ...], space: Harmonic, angle: np.ndarray) -> np.ndarray:

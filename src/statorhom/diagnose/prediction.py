@@ -210,7 +210,7 @@ def _base(
 ) -> dict[ModeKey, _Symmetric]:
     for action in actions:
         if action.joint is not None:
-            basis = stage.joined(action.joint.regions, with_arcs=action.joint.arc is not None)
+            basis = stage.joined(action.joint)
             modes = basis.solve(materials, action.joint)
             if names is not None:
                 joined = {m.mode.place: m for m in modes.values()}

@@ -29,6 +29,7 @@ from statorhom.diagnose.refit import Refit, evaluated
 from statorhom.diagnose.stage_model import mesh_error, with_reference
 from statorhom.diagnose.valleys import APART, FAR_BEHIND
 from statorhom.errors import StatorhomError
+from statorhom.physics.action import Action
 
 MOST = 3  # explanations that get models of their own before a second effect is sought
 ROUNDS = 3  # models of one explanation
@@ -36,6 +37,7 @@ SETTLED = 2.0  # of the objective, that another one must have gained
 WORSE = 10.0  # of the objective, by which a model of its own is worse than the common one
 VAGUE = 1.0  # prior standard deviation of a logarithm from which on a constant may be far on either side
 ASIDE = 1.5  # prior standard deviations to either side where such a constant is tried
+WIDER = 1.1  # arcs at which a contact that is lost over an arc is solved, beside its own
 BEHIND = 150.0  # log evidence by which others are too far behind for that
 
 
@@ -81,11 +83,19 @@ def _own_model(r: Refit, *, mesh_known: bool = False) -> Hypothesis:
     stages = []
     for stage in hypothesis.study.stages:
         materials = acted_materials(hypothesis.study, stage, values, actions)
-        near = with_reference(stage, materials)
+        near = with_reference(stage, materials, _arcs(actions))
         if not mesh_known:
             near = near.with_error(mesh_error(stage.setup, near.ring, materials, stage.density))
         stages.append(near)
     return replace(hypothesis, study=hypothesis.study.with_stages(tuple(stages)), held=None)
+
+
+def _arcs(actions: Sequence[Action]) -> tuple[tuple[float, float], ...]:
+    """Widths and ratios on either side of those of a contact that is weaker over an arc."""
+    arcs = [
+        (a.joint.arc[1], a.joint.ratio) for a in actions if a.joint is not None and a.joint.arc is not None
+    ]
+    return tuple((min(w * f, 2 * np.pi), q / f**2) for w, q in arcs for f in (1 / WIDER, WIDER))
 
 
 def refined(

@@ -28,7 +28,7 @@ from statorhom.model.free_modes import FreeModes, problem_at
 from statorhom.model.harmonic import Harmonic
 from statorhom.model.pitch_parts import pitch_parts
 from statorhom.model.stator_mode import StatorMode
-from statorhom.physics.action import Training
+from statorhom.physics.action import Joint, Training
 from statorhom.study.study_file import FREE
 
 BAND = 1.12  # predictions reach this much higher than the highest measured mode
@@ -51,6 +51,7 @@ class StageModel:
     reference : materials at which broken symmetry and mesh factors are computed.
     error : mesh factors.
     density : of the mesh.
+    arcs : widths (rad) and ratios at which a contact that is weaker over an arc is predicted as the mesh has it.
     """
 
     setup: StageSetup
@@ -62,7 +63,10 @@ class StageModel:
     _last: dict[bytes, RingModes] = field(default_factory=dict, repr=False)
     kept_responses: dict[Hashable, Any] = field(default_factory=dict, repr=False)
     _slopes: dict[int, dict[tuple[int, int], np.ndarray]] = field(default_factory=dict, repr=False)
-    _joints: dict[tuple[tuple[str, ...], bool], JointBasis] = field(default_factory=dict, repr=False)
+    arcs: tuple[tuple[float, float], ...] = ()
+    _joints: dict[tuple[tuple[str, ...], tuple[float, float] | None], JointBasis] = field(
+        default_factory=dict, repr=False
+    )
     _trained: dict[tuple[str, ...], TrainedBasis] = field(default_factory=dict, repr=False)
     _corrected: dict[tuple[str, ...], TrainedBasis] = field(default_factory=dict, repr=False)
     _narrow: dict[float, TrainedBasis] = field(default_factory=dict, repr=False)
@@ -122,19 +126,24 @@ class StageModel:
         modes = self.reference_keys.items()
         return {key: (self.ring.problems[m.problem].space, m.frequency_hz) for key, m in modes}
 
-    def joined(self, regions: tuple[str, ...], *, with_arcs: bool) -> JointBasis:
-        """Modes with a contact around some regions."""
-        used = tuple(r for r in regions if r in self.model.mesh.regions)
-        if (used, with_arcs) not in self._joints:
-            self._joints[used, with_arcs] = joint_basis(
+    def joined(self, joint: Joint) -> JointBasis:
+        """Modes with a contact around some regions, the same all around or weaker over arcs like those of `arcs`."""
+        used = tuple(r for r in joint.regions if r in self.model.mesh.regions)
+        # with arcs the contact elsewhere stays what it is
+        mark = used, None if joint.arc is None else (joint.normal, joint.tangential)
+        if mark not in self._joints:
+            differs = joint.arc is not None
+            arcs = [replace(joint, arc=(0.0, w), ratio=q) for w, q in self.arcs] if differs else []
+            self._joints[mark] = joint_basis(
                 self.model.mesh,
                 used,
                 self.reference,
                 self.ring.highest_hz,
                 self.orders,
-                with_arcs=with_arcs,
+                may_differ=differs,
+                arcs=arcs,
             )
-        return self._joints[used, with_arcs]
+        return self._joints[mark]
 
     @cached_property
     def reference_keys(self) -> Mapping[ModeKey, StatorMode]:
@@ -238,10 +247,13 @@ def with_snapshots(stage: StageModel, materials: Sequence[Materials]) -> StageMo
     return wider
 
 
-def with_reference(stage: StageModel, materials: Materials) -> StageModel:
+def with_reference(
+    stage: StageModel, materials: Materials, arcs: tuple[tuple[float, float], ...] = ()
+) -> StageModel:
     """The stage at another reference, its mesh factors kept."""
     return replace(
         stage,
+        arcs=arcs,
         ring=stage.ring.extended([materials]),
         reference=materials,
         _last={},
