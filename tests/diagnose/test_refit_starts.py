@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose import refit_starts
-from statorhom.diagnose.refit_starts import _as_large
+from statorhom.diagnose.refit_starts import _as_large, _begun
 from statorhom.diagnose.scan import Signature
 from statorhom.diagnose.searched_starts import SUPPORTS, _with_few_supports
 from statorhom.physics.parameter import EffectParameter, angle, height
@@ -76,6 +76,18 @@ def test_effects_without_a_place_begin_where_the_scan_did() -> None:
     sliding: Any = SimpleNamespace(parameters=(shear, shear))
     begun = _as_large(signature(sliding, [0.1, 0.2], 1.0, 100.0))
     assert begun.tolist() == [0.1, 0.2]
+
+
+@pytest.mark.parametrize(("price", "width_deg"), [("DEAR", 40.0), ("MIDDLING", 200.0)])
+def test_an_arc_of_lost_contact_is_not_made_wider(
+    monkeypatch: pytest.MonkeyPatch, price: str, width_deg: float
+) -> None:
+    width = EffectParameter("arc_deg", 20.0, 180.0, 5.0, 330.0, "log", (40.0,), None)
+    arc: Any = SimpleNamespace(parameters=(width, angle()))
+    monkeypatch.setattr(refit_starts, "start_of", lambda _, __, start: start)
+    monkeypatch.setattr(refit_starts, "price", lambda _: getattr(refit_starts, price))
+    begun: Any = _begun(BASE, signature(arc, [width.internal(40.0), 0.0], 4.0, 20.0**2))
+    assert width.value(begun[0]) == pytest.approx(width_deg)
 
 
 def test_rivals_of_the_favourite_are_sought_all_over_the_prior(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -156,7 +156,7 @@ def _starts_of(base: Refit, found: Scan, signature: Signature) -> list[Start]:
     for one in own:
         if all(abs(float(one.change @ other.change)) < 0.9 for other in chosen):
             chosen.append(one)
-    begun = [start_of(base, s.candidate, _as_large(s)) for s in chosen[:PLACES]]
+    begun = [_begun(base, s) for s in chosen[:PLACES]]
     if not signature.candidate.located or price((signature.gain, begun)) != CHEAP:
         begun = begun[:STARTS]
     if not is_poor(base):
@@ -164,6 +164,17 @@ def _starts_of(base: Refit, found: Scan, signature: Signature) -> list[Start]:
     every = [np.r_[base.z, start] for start in scan_starts(base.hypothesis.study, signature.candidate)]
     wider = with_materials_of(begun[0].hypothesis, every)
     return [replace(one, hypothesis=wider) for one in begun]
+
+
+def _begun(base: Refit, signature: Signature) -> Start:
+    """A start of a candidate, of the size that the misfit asks for.
+
+    An arc of lost contact is not made wider: from narrow ones refits reach wide ones, from too wide ones no others.
+    """
+    as_scanned = start_of(base, signature.candidate, signature.start)
+    if price((signature.gain, [as_scanned])) == DEAR:
+        return as_scanned
+    return start_of(base, signature.candidate, _as_large(signature))
 
 
 def _as_large(signature: Signature) -> np.ndarray:

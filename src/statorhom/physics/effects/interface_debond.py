@@ -14,8 +14,8 @@ from statorhom.physics.parameter import EffectParameter, angle
 from statorhom.study.study import StudyFiles
 
 INTACT = 1e14  # N/m³: stiff enough to be a bond for all modes of the band
-ARC = EffectParameter("arc_deg", 20.0, 180.0, 5.0, 330.0, "log", (60.0, 120.0), None)
-RATIO = EffectParameter("contact_ratio", 1e-4, 0.5, 1e-5, 1.0, "log", (0.01,), 1.0)
+ARC = EffectParameter("arc_deg", 20.0, 180.0, 5.0, 330.0, "log", (40.0, 80.0), None)
+RATIO = EffectParameter("contact_ratio", 1e-4, 0.5, 1e-5, 1.0, "log", (0.01, 0.002), 1.0)
 LOSS = EffectParameter("contact_loss_factor", 0.005, 0.3, 1e-4, 2.0, "log", (0.03,), None)
 
 
