@@ -18,9 +18,9 @@ from statorhom.identify.priors import Carried, stage_space
 from statorhom.identify.stage_materials import DENSITY
 from statorhom.identify.stage_problem import MESH
 from statorhom.identify.stage_setup import StageSetup
+from statorhom.materials.typical_ranges import Z95
 
 FloatArray = npt.NDArray[np.float64]
-_Z90 = 1.6448536269514722
 # typical loss factors (5 %, 95 %): bare steel and what is joined to it; wires, dry or in resin
 STEEL_LOSS, WINDING_LOSS = (5e-4, 2e-2), (2e-3, 1e-1)
 LOSS_LIMITS = (1e-6, 2.0)
@@ -168,7 +168,7 @@ def _weight(stage: str, mass_kg: float, sd_kg: float) -> Constant:
 
 def _loss(name: str, source: str) -> Constant:
     low, high = WINDING_LOSS if source in ("winding", "overhang") else STEEL_LOSS
-    spread = math.log(high / low) / (2 * _Z90)
+    spread = math.log(high / low) / (2 * Z95)
     return Constant(name, math.sqrt(low * high), spread, *LOSS_LIMITS, log=True)
 
 
@@ -177,4 +177,4 @@ def _constant(name: str, p: Parameter) -> Constant:
         return Constant(name, p.median, FIXED * (abs(p.median) or 1.0), -np.inf, np.inf)
     log = p.scale == "log"
     low, high = (np.log(v) if log else v for v in (p.low90, p.high90))
-    return Constant(name, p.median, float(high - low) / (2 * _Z90), p.lower, p.upper, log)
+    return Constant(name, p.median, float(high - low) / (2 * Z95), p.lower, p.upper, log)

@@ -11,6 +11,7 @@ from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.held_out import LACKING, lacked
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.sides import one_by_one, opposite_location
+from statorhom.materials.typical_ranges import Z95
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.declared import DeclaredEffect
 from statorhom.physics.library import library
@@ -26,7 +27,6 @@ from statorhom.results.diagnosis import (
     PlanLocation,
 )
 
-Z90 = 1.6448536269514722
 Located = Callable[[Explanation, int], Location | PlanLocation | None]
 
 STEP = 1e-3  # of internal coordinates
@@ -95,7 +95,7 @@ def _intervals(explanation: Explanation, number: int) -> dict[str, tuple[float, 
         if i == number and not parameter.located:
             place = r.hypothesis.constants + k
             shape = _shape_spread(r.hypothesis.candidates[i], parameter, float(r.z[place]))
-            spread = Z90 * float(np.hypot(np.sqrt(covariance[place, place]), shape))
+            spread = Z95 * float(np.hypot(np.sqrt(covariance[place, place]), shape))
             low, high = (parameter.value(r.z[place] + sign * spread) for sign in (-1, 1))
             found[parameter.name] = (low, high)
     return found

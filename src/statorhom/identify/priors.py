@@ -16,11 +16,10 @@ from statorhom.identify.stage_problem import MESH
 from statorhom.materials.density import RegionDensity
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.materials.typical import prior_range
+from statorhom.materials.typical_ranges import Z95
 from statorhom.results.schema import CarriedParameter, CarriedState
 from statorhom.study.regions import COUPON
 from statorhom.study.stages import StageKeys
-
-Z90 = 1.6448536269514722  # the standard normal's 95 % quantile
 
 
 @dataclass(frozen=True)
@@ -106,7 +105,7 @@ def stage_space(
         parameters.append(_density(source, densities[_weighed(source)]))
         ties += [_tie(source, group) for group in stage.identify.tied.get(source, ())]
     ties += _weighed_together(parameters, stage)
-    parameters.append(Parameter(MESH, 0.0, -Z90, Z90, -4.0, 4.0, "linear"))
+    parameters.append(Parameter(MESH, 0.0, -Z95, Z95, -4.0, 4.0, "linear"))
     blocks = () if carried.block is None else (carried.block,)
     return ParameterSpace(tuple(parameters), tuple(ties), blocks)
 
@@ -153,7 +152,7 @@ def _constant(
 
 
 def _density(source: str, density: RegionDensity) -> Parameter:
-    value, spread = density.density_kg_m3, Z90 * density.density_sd_kg_m3
+    value, spread = density.density_kg_m3, Z95 * density.density_sd_kg_m3
     if spread == 0.0:
         return Parameter.constant(f"{source}.{DENSITY}", value)
     width = min(4 * spread, 0.9 * value)

@@ -7,7 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-Z90 = 1.6448536269514722  # the standard normal's 95 % quantile
+from statorhom.materials.typical_ranges import Z95
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class EffectParameter:
         if self.located:
             return 0.5 * (self.lower + self.upper), (self.upper - self.lower) / np.sqrt(12)
         low, high = self._onto(self.low90), self._onto(self.high90)
-        return 0.5 * (low + high), (high - low) / (2 * Z90)
+        return 0.5 * (low + high), (high - low) / (2 * Z95)
 
     def _onto(self, value: float) -> float:
         return float(np.log(value)) if self.scale == "log" else float(value)

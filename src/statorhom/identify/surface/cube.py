@@ -8,8 +8,8 @@ import numpy as np
 
 from statorhom.identify.bounds import Array
 from statorhom.identify.parameters import ParameterSpace
+from statorhom.materials.typical_ranges import Z95
 
-Z90 = 1.6448536269514722  # the standard normal's 95 % quantile
 ON_FACE = 0.02  # of the cube's half edge: this close a point lies on its face
 
 
@@ -52,6 +52,6 @@ class Cube:
         return tuple(name for name, at in zip(self.space.coordinates, near, strict=True) if at)
 
     def _faces(self) -> tuple[Array, Array]:
-        spread = Z90 * self.space.prior_sd
+        spread = Z95 * self.space.prior_sd
         clip = self.space.bounds.clip
         return clip(self.space.prior_mean - spread), clip(self.space.prior_mean + spread)

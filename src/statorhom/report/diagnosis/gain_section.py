@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from statorhom.report.diagnosis.words import Z90, constant_figures, constant_words
+from statorhom.materials.typical_ranges import Z95
+from statorhom.report.diagnosis.words import constant_figures, constant_words
 from statorhom.report.document import Block, Column, Paragraph, Row, Section, Table, Text, strong, text
 from statorhom.report.wording import constant_interval, constant_value
 from statorhom.results.diagnosis import ConstantRow, Details, Diagnosis, RefittedRow
@@ -83,7 +84,7 @@ def _constants(e: Details) -> Table:
         before, after = constant_figures(c)
         change = "–" if c.before == 0 else _signed(100 * (c.after / c.before - 1))
         rows.append(Row((text(name), text(before), text(after), text(change))))
-    said = f"Intervals are ± {Z90:.2f} standard deviations at the optimum of all tests together."
+    said = f"Intervals are ± {Z95:.2f} standard deviations at the optimum of all tests together."
     return Table(head, tuple(rows), text(said))
 
 

@@ -8,7 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 
-from statorhom.report.diagnosis.words import Z90, effect_words
+from statorhom.materials.typical_ranges import Z95
+from statorhom.report.diagnosis.words import effect_words
 from statorhom.report.document import Picture, text
 from statorhom.report.figures.canvas import (
     DATA,
@@ -96,8 +97,8 @@ def _place(axes: Axes, effect: EffectResult, length: float) -> None:
     place = effect.location
     assert isinstance(place, Location) and place.angle_deg is not None
     z = place.z_mm if place.z_mm is not None else length / 2
-    half = Z90 * place.z_sd_mm if place.z_sd_mm is not None else length / 2
-    width = max(Z90 * (place.angle_sd_deg or 0.0), 1.2)
+    half = Z95 * place.z_sd_mm if place.z_sd_mm is not None else length / 2
+    width = max(Z95 * (place.angle_sd_deg or 0.0), 1.2)
     turn = np.linspace(0, 2 * np.pi, 60)
     for i, angle in enumerate(place.angle_ambiguity_deg or (place.angle_deg,)):
         for whole in (-WHOLE_TURN, 0.0, WHOLE_TURN):

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from statorhom.report.diagnosis.words import Z90, effect_words
+from statorhom.materials.typical_ranges import Z95
+from statorhom.report.diagnosis.words import effect_words
 from statorhom.report.document import Picture, text
 from statorhom.report.figures.canvas import DATA, FONT_PT, INK, new_figure, safe, svg, tidy
 from statorhom.results.diagnosis import EffectResult, PlanLocation, PlanRow
@@ -28,7 +29,7 @@ def plan_figure(effects: Sequence[EffectResult], plan: PlanRow) -> Picture | Non
     turn = np.linspace(0, 2 * np.pi, 60)
     smallest = 0.008 * float(size.max())
     for _, place in placed:
-        half = [max(Z90 * sd, smallest) for sd in (place.x_sd_mm, place.y_sd_mm)]
+        half = [max(Z95 * sd, smallest) for sd in (place.x_sd_mm, place.y_sd_mm)]
         for i, (x, y) in enumerate(place.place_ambiguity_mm or ((place.x_mm, place.y_mm),)):
             filled = {"facecolor": DATA, "alpha": 0.75} if i == 0 else {"facecolor": "none"}
             axes.fill(

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from statorhom.materials.typical_ranges import Z95
 from statorhom.report.wording import constant_interval, constant_meaning, constant_value, rounded
 from statorhom.results.diagnosis import ConstantRow, EffectResult, Estimated, FeatureRow, PlanLocation
 from statorhom.study.message import one_line
 
-Z90 = 1.6448536269514722
 VERDICTS = {
     "none": "Nothing is missing from the model, as far as these measurements can tell.",
     "named": "The model lacks something, and the measurements say what.",
@@ -113,7 +113,7 @@ def place_words(effect: EffectResult) -> str:
     if place is not None and place.angle_deg is not None:
         sd = place.angle_sd_deg or 0.0
         also = [f"{a:.0f}°" for a in place.angle_ambiguity_deg[1:]]
-        parts.append(f"at {place.angle_deg:.0f}° ± {max(Z90 * sd, 0.5):.1f}° around the axis")
+        parts.append(f"at {place.angle_deg:.0f}° ± {max(Z95 * sd, 0.5):.1f}° around the axis")
         if also:
             parts[-1] += f" (or, equally possible: {', '.join(also)})"
     if place is not None and place.z_mm is not None and place.z_sd_mm is not None:
@@ -143,7 +143,7 @@ def constant_figures(row: ConstantRow) -> tuple[str, str]:
     constant = row.name.rpartition(".")[2] if "." in row.name else row.name.rpartition(":")[2]
     found = []
     for value, sd in ((row.before, row.before_sd), (row.after, row.after_sd)):
-        ends = (value - Z90 * sd, value + Z90 * sd)
+        ends = (value - Z95 * sd, value + Z95 * sd)
         if constant == "mass_kg":
             found.append(f"{figure(value, ends)} kg ({figure(ends[0], ends)} … {figure(ends[1], ends)})")
         else:
@@ -165,4 +165,4 @@ def _spaced(unit: str) -> str:
 
 def _whole_mm(sd_mm: float) -> int:
     """Half of the 90 % interval of a place in whole millimetres, never none."""
-    return max(1, round(Z90 * sd_mm))
+    return max(1, round(Z95 * sd_mm))
