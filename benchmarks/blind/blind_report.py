@@ -10,8 +10,8 @@ from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
-import pandas as pd
 from blind_baselines import comparison, median_ratios
+from blind_kept import write_rows
 from blind_score import DETECTABLE, interval, median_interval, medians, proportions
 from matplotlib.axes import Axes
 
@@ -55,13 +55,7 @@ def write_report(rows: Sequence[Mapping[str, Any]], folder: Path, listed: int) -
     ----------
     listed : how many cases were to be run.
     """
-    flat = [
-        {k: v for k, v in row.items() if k not in ("answers", "held_out")}
-        | row.get("answers", {})
-        | {f"held-out ratio, {method}": v for method, v in row.get("held_out", {}).items()}
-        for row in rows
-    ]
-    write_text(folder / "cases.csv", pd.DataFrame(flat).to_csv(index=False, float_format="%.4g"))
+    write_rows(rows, folder)
     text = markdown(rows, listed)
     write_text(folder / "blind.md", text)
     if len(rows):

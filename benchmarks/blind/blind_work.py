@@ -27,14 +27,21 @@ from statorhom.conceal.folder import TRUTH
 from statorhom.errors import StatorhomError
 from statorhom.study.atomic import write_text
 
-PATIENCE_S = 1800.0  # a diagnosis that takes longer counts as failed
+PATIENCE_S = 600.0
 
 
 @dataclass(frozen=True)
 class Work:
-    """Folder of one benchmark."""
+    """Folder of one benchmark.
+
+    Parameters
+    ----------
+    folder : of everything.
+    patience_s : a diagnosis that takes longer counts as failed.
+    """
 
     folder: Path
+    patience_s: float = PATIENCE_S
 
     def case(self, case: BlindCase) -> Path:
         """What the diagnosis sees."""
@@ -86,11 +93,11 @@ def diagnose(work: Work, case: BlindCase) -> str | None:
     begin = time.perf_counter()
     try:
         done = subprocess.run(
-            [*command, *options], capture_output=True, text=True, timeout=PATIENCE_S, check=False
+            [*command, *options], capture_output=True, text=True, timeout=work.patience_s, check=False
         )
         code, message = done.returncode, done.stderr.strip().splitlines()[-1:]
     except subprocess.TimeoutExpired:
-        code, message = -1, [f"no answer within {PATIENCE_S:g} s"]
+        code, message = -1, [f"no answer within {work.patience_s:g} s"]
     seconds = time.perf_counter() - begin
     state = {
         "seconds": seconds,

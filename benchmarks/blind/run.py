@@ -2,7 +2,9 @@
 
     python benchmarks/blind/run.py --cases 40 --jobs 2
 
-An interrupted run goes on where it was; `--score` only scores what is there. Table and plot go into FIGURES.
+An interrupted run goes on where it was; `--score` only scores what is there. Table and plot go into FIGURES. With
+`--go-on` the cases of the table that stands there already are kept with the commits that answered them, and only the
+others are run: the whole list takes longer than a working day.
 """
 
 from __future__ import annotations
@@ -11,9 +13,10 @@ import argparse
 from pathlib import Path
 
 from blind_cases import blind_cases
+from blind_kept import kept_rows
 from blind_report import write_report
 from blind_score import scored
-from blind_work import Work, diagnose, each, make
+from blind_work import PATIENCE_S, Work, diagnose, each, make
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -30,21 +33,25 @@ def main() -> None:
     parser.add_argument("--work", type=Path, default=ROOT / "blind-work", help="folder of cases and runs")
     parser.add_argument("--figures", type=Path, default=ROOT / "benchmarks" / "figures" / "blind")
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--patience", type=float, default=PATIENCE_S, help="seconds of a diagnosis")
+    parser.add_argument("--go-on", action="store_true", help="keep the rows of FIGURES/cases.csv")
     parser.add_argument("--score", action="store_true", help="score what is there and do nothing else")
     options = parser.parse_args()
-    work = Work(options.work)
+    work = Work(options.work, options.patience)
     cases = [
         case
         for case in blind_cases(options.cases, options.series)
         if options.group in (None, case.group) and options.kind in (None, "tables" if case.tables else "frfs")
     ]
+    kept = kept_rows(options.figures) if options.go_on else {}
+    new = [case for case in cases if case.name not in kept]
     if not options.score:
-        each("made", make, work, cases, options.jobs)
+        each("made", make, work, new, options.jobs)
     if options.make:
         return
     if not options.score:
-        each("diagnosed", diagnose, work, cases, options.jobs)
-    rows = [row for case in cases if (row := scored(work, case)) is not None]
+        each("diagnosed", diagnose, work, new, options.jobs)
+    rows = [row for case in cases if (row := kept.get(case.name) or scored(work, case)) is not None]
     print(write_report(rows, options.figures, len(cases)))
 
 

@@ -6,8 +6,9 @@ from collections import Counter
 
 import numpy as np
 import pytest
-from blind_baselines import comparison, held_out_ratios, simpler_answers
+from blind_baselines import METHODS, comparison, held_out_ratios, simpler_answers
 from blind_cases import blind_cases
+from blind_kept import kept_rows
 from blind_machines import machine, study
 from blind_report import markdown, write_report
 from blind_score import angle_error_deg, compared, interval, magnitude_error, median_interval, summary
@@ -161,3 +162,32 @@ def test_the_report_says_how_many_cases_at_which_commit(tmp_path) -> None:
     rows = [row | {"verdict": "none", "verdict_right": True, "commit": "abc", "template": "stack"}]
     assert write_report(rows, tmp_path, 12).startswith("1 of 12 cases, diagnosed at commit abc (1).")
     assert (tmp_path / "blind.png").stat().st_size > 0
+
+
+def test_rows_of_earlier_runs_give_the_same_report(tmp_path) -> None:
+    common = {
+        "group": "single",
+        "data": "table",
+        "template": "stack",
+        "seconds": 2.0,
+        "snr": 9.0,
+        "fault": "",
+    }
+    named = common | compared({"verdict": "named", "effects": [LUMP]}, answer()) | {"effect": LUMP["effect"]}
+    named |= {"answers": dict.fromkeys(METHODS, "") | {"diagnose": "attached_mass"}}
+    named |= {"held_out": {"refit of all constants": 1.0, "diagnose": 0.2}}
+    rows = [
+        named | {"case": "case-0001", "truth": "attached_mass", "commit": "0012345"},
+        common
+        | {"case": "case-0002", "truth": "ovality", "commit": "12e5", "verdict": "failed", "fault": "late"},
+    ]
+    first = write_report(rows, tmp_path, 2)
+    kept = kept_rows(tmp_path)
+    assert list(kept) == ["case-0001", "case-0002"]
+    assert kept["case-0001"]["held_out"] == named["held_out"]
+    assert [row["commit"] for row in kept.values()] == ["0012345", "12e5"]
+    assert write_report(list(kept.values()), tmp_path, 2) == first
+
+
+def test_without_a_table_nothing_is_kept(tmp_path) -> None:
+    assert kept_rows(tmp_path) == {}
