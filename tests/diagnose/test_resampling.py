@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from statorhom.diagnose.held_out import WEIGHED
 from statorhom.diagnose.refit import Refit, log_volume
 from statorhom.diagnose.resampling import resampled_evidence, stability, wins
 
@@ -58,3 +59,23 @@ def test_a_linear_model_is_resampled_exactly() -> None:
 def test_without_a_rival_the_winner_is_stable() -> None:
     one = SimpleNamespace()
     assert stability([one, one], 1) == 1.0  # type: ignore[list-item]
+
+
+def explanation(log_evidence: float, residuals: list[float]) -> SimpleNamespace:
+    """Of four modes and what densities can be, with one constant that none of them tells."""
+    rows = [frozenset([("free", str(i))]) for i in range(4)] + [frozenset([WEIGHED])]
+    hypothesis = SimpleNamespace(
+        prior_weights=np.ones(1),
+        missed=0.0,
+        features=lambda _: [SimpleNamespace(observed=row) for row in rows],
+        residuals=lambda _: np.array(residuals),
+    )
+    misfit = float(np.sum(np.square(residuals)))
+    refit = Refit(hypothesis, np.zeros(1), np.zeros((5, 1)), misfit, misfit)  # type: ignore[arg-type]
+    return SimpleNamespace(compared=None, refit=refit, log_evidence=log_evidence)
+
+
+def test_a_rival_that_only_an_impossible_density_speaks_against_does_not_win() -> None:
+    best, none = explanation(-4.0, [1.0, 1.0, 1.0, 1.0, 1.0]), explanation(-200.0, [10.0] * 4 + [0.0])
+    rival = explanation(-50.0, [0.1, 0.1, 0.1, 0.1, 10.0])
+    assert stability([best, none, rival], 1) == 1.0  # type: ignore[list-item]
