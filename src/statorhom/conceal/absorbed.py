@@ -1,4 +1,4 @@
-"""How much of a misfit a refit of the declared constants absorbs: Gauss-Newton steps until nothing more is gained.
+"""How much of a misfit a refit of the declared constants absorbs: damped steps until nothing more is gained.
 
 A strong effect moves constants so far that one linear projection leaves many times what a refit does.
 """
@@ -15,10 +15,14 @@ from statorhom.conceal.declared_residual import DeclaredTest, Residual
 
 # relative: of a measured frequency; of a name's mesh error, after extrapolation
 FREQUENCY_SD, MESH_SD = 3e-4, 2e-3
-ROUNDS = 12
+ROUNDS = 40
 SMALL = 0.01  # a step of a constant's logarithm that changes modes as the slopes say
 LARGEST = 0.5  # step of a constant's logarithm
-FRACTIONS = (1.0, 0.5, 0.25, 0.1)  # of a step, tried in turn
+# of the curvature that is added to itself (Levenberg 1944, Marquardt 1963): at first, and after steps that gain or not
+DAMPING, LESS, MORE = 1e-3, 0.2, 6.0
+STIFFEST = 10.0  # damping at which no step gains
+# rounds after which a valley is given up that is so many times as far off as another one's end
+PATIENCE, FAR_OFF = 8, 30.0
 WEAKER = (-0.5, -1.0, -1.5)  # changes of the winding's moduli from which the steps begin again
 SEEN = 3.0  # standard deviations
 GAIN = 0.01  # of the misfit; what gains less is the end
@@ -73,21 +77,22 @@ class Misfit:
     def _merit(self, values: np.ndarray, changes: np.ndarray) -> float:
         return float(values @ self.weights @ values + np.sum((changes / self.spreads) ** 2))
 
-    @cached_property
-    def step(self) -> np.ndarray:
-        """Of the constants' logarithms to the least merit, as the slopes say."""
+    def step(self, damping: float = 0.0) -> np.ndarray:
+        """Of the constants' logarithms to the least merit, as the slopes say; a damped one is shorter."""
         J, W, known = self.slopes, self.weights, self.spreads**-2
-        return np.linalg.solve(J.T @ W @ J + np.diag(known), J.T @ W @ self.values - known * self.changes)
+        curvature = J.T @ W @ J + np.diag(known)
+        curvature += damping * np.diag(np.diag(curvature))
+        return np.linalg.solve(curvature, J.T @ W @ self.values - known * self.changes)
 
     @cached_property
     def left(self) -> np.ndarray:
-        """What that step leaves of the values."""
-        return self.values - self.slopes @ self.step
+        """What an undamped step leaves of the values."""
+        return self.values - self.slopes @ self.step()
 
     @cached_property
     def left_sd(self) -> float:
         """Norm of rᵀPr (physics.md §7.4): of what is left and of how unusual the constants became, in sd."""
-        return float(np.sqrt(self._merit(self.left, self.changes + self.step)))
+        return float(np.sqrt(self._merit(self.left, self.changes + self.step())))
 
 
 def absorbed(tests: Sequence[DeclaredTest]) -> Misfit | None:
@@ -106,7 +111,7 @@ def absorbed(tests: Sequence[DeclaredTest]) -> Misfit | None:
             break
         start = _moved(tests, names, np.array([weaker * _is_winding_modulus(name) for name in names]))
         if start is not None:
-            best = min(best, _settled(start, tests), key=lambda misfit: misfit.merit)
+            best = min(best, _settled(start, tests, FAR_OFF * best.merit), key=lambda misfit: misfit.merit)
     return best
 
 
@@ -115,29 +120,23 @@ def _is_winding_modulus(name: str) -> bool:
     return source.startswith("winding") and constant.endswith("_pa")
 
 
-def _settled(misfit: Misfit, tests: Sequence[DeclaredTest]) -> Misfit:
-    for _ in range(ROUNDS):
-        nearer = _nearer(misfit, tests)
-        if nearer is None:
+def _settled(misfit: Misfit, tests: Sequence[DeclaredTest], far: float = np.inf) -> Misfit:
+    damping = DAMPING
+    for number in range(ROUNDS):
+        if number >= PATIENCE and misfit.merit > far:
             break
-        gained, misfit = misfit.merit - nearer.merit, nearer
+        step = misfit.step(damping)
+        size = float(np.abs(step).max())
+        if size < SMALL or damping > STIFFEST:
+            break
+        moved = _moved(tests, misfit.names, misfit.changes + min(1.0, LARGEST / size) * step)
+        if moved is None or moved.merit >= misfit.merit:
+            damping *= MORE
+            continue
+        gained, misfit, damping = misfit.merit - moved.merit, moved, LESS * damping
         if gained < GAIN * misfit.merit:
             break
     return misfit
-
-
-def _nearer(misfit: Misfit, tests: Sequence[DeclaredTest]) -> Misfit | None:
-    """After one step; None where it is small or no part of it gains."""
-    step = misfit.step
-    size = float(np.abs(step).max())
-    if size < SMALL:
-        return None
-    for fraction in FRACTIONS:
-        changes = misfit.changes + fraction * min(1.0, LARGEST / size) * step
-        moved = _moved(tests, misfit.names, changes)
-        if moved is not None and moved.merit < misfit.merit:
-            return moved
-    return None
 
 
 def _moved(tests: Sequence[DeclaredTest], names: Sequence[str], changes: np.ndarray) -> Misfit | None:
