@@ -28,22 +28,24 @@ def shown_nodes(
     columns : places of the named modes among the broken ones' coordinates.
     named : the symmetric stator's modes.
     """
-    own = {key: _own(modes, place) for key, place in columns.items()}
     found = {}
-    for key, chosen in own.items():
-        seen: dict[int, float] = {}
-        for its, place in columns.items():
-            if its[0] == key[0] and its in named:
-                share = np.mean(modes.participation[place.numbers][:, chosen] ** 2)
-                seen[its[1]] = seen.get(its[1], 0.0) + float(share) * named[its].visibility
-        mine = seen.pop(key[1], 0.0)
-        other = max(seen, key=seen.__getitem__, default=None)
-        if other is not None and seen[other] > PART * mine:
-            found[key] = other
+    for order in {key[0] for key in columns}:
+        keys = [key for key in columns if key[0] == order]
+        # mean square part of every named mode of the order in every broken one, (keys, modes)
+        parts = np.array([_mean_square(modes, columns[key]) for key in keys])
+        visible = np.array([named[key].visibility if key in named else 0.0 for key in keys])
+        for part, key in zip(parts, keys, strict=True):
+            chosen = np.argsort(-part)[: len(columns[key].numbers)]
+            seen: dict[int, float] = {}
+            for its, share in zip(keys, (visible * parts[:, chosen].mean(axis=1)).tolist(), strict=True):
+                seen[its[1]] = seen.get(its[1], 0.0) + share
+            mine = seen.pop(key[1], 0.0)
+            other = max(seen, key=seen.__getitem__, default=None)
+            if other is not None and seen[other] > PART * mine:
+                found[key] = other
     return found
 
 
-def _own(modes: BrokenModes, place: Columns) -> np.ndarray:
-    """Numbers of the broken modes that have most of a named one."""
-    weight = np.sum(modes.participation[place.numbers] ** 2, axis=0)
-    return np.argsort(-weight)[: len(place.numbers)]
+def _mean_square(modes: BrokenModes, place: Columns) -> np.ndarray:
+    """Of a named mode's products by mass with the broken ones, (modes,)."""
+    return np.asarray(np.mean(modes.participation[place.numbers] ** 2, axis=0))

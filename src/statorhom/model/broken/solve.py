@@ -205,7 +205,7 @@ def _eigenpairs(coupled: Coupled, basis: SymmetricBasis) -> tuple[np.ndarray, np
     expected = int(np.count_nonzero(basis.values < EXPECTED * top)) + 8
     change = _orthogonal(coupled, len(basis.values))
     if change is not None:
-        K, M = change.T @ K @ change, change.T @ M @ change
+        K, M = (_turned(A, change, len(basis.values)) for A in (K, M))
     try:
         values, x = lowest_coupled((K + K.T) / 2, (M + M.T) / 2, top, basis.shift, expected)
     except np.linalg.LinAlgError:
@@ -227,6 +227,13 @@ def _orthogonal(coupled: Coupled, size: int) -> np.ndarray | None:
     keep = values > DEPENDENT
     columns = scale[:, None] * vectors[:, keep] / np.sqrt(values[keep])
     return np.block([[np.eye(size), -inside @ columns], [np.zeros((len(statics), size)), columns]])
+
+
+def _turned(matrix: np.ndarray, change: np.ndarray, size: int) -> np.ndarray:
+    """cᵀAc of a symmetric A where c leaves the first coordinates, of which there are many more, as they are."""
+    columns = change[:, size:]
+    right = matrix @ columns
+    return np.block([[matrix[:size, :size], right[:size]], [right[:size].T, columns.T @ right]])
 
 
 def _errors(basis: SymmetricBasis, coupled: Coupled, values: np.ndarray, x: np.ndarray) -> np.ndarray:
