@@ -138,15 +138,18 @@ def test_an_effect_that_leaves_more_than_its_absence_is_sought_all_over_the_prio
     assert sought(monkeypatch, 450.0, holds=True) == 450.0
 
 
-@pytest.mark.parametrize(("quick", "found"), [(150.0, 20.0), (170.0, 170.0)])
-def test_a_rival_that_explains_much_is_tried_with_local_fields(
-    monkeypatch: pytest.MonkeyPatch, quick: float, found: float
+@pytest.mark.parametrize(
+    ("quick", "located", "found"), [(150.0, True, 20.0), (170.0, True, 170.0), (240.0, False, 20.0)]
+)
+def test_a_rival_that_explains_much_or_is_all_over_its_region_is_tried_with_local_fields(
+    monkeypatch: pytest.MonkeyPatch, quick: float, located: bool, found: float
 ) -> None:
-    """A graded stack left 150 without them beside 84 of a wrong name, of 289, and 15 with them."""
+    """Of two graded stacks one left 150 without them beside 84 of a wrong name, and 15 with them, one 243 and 31."""
 
     @dataclass(frozen=True)
     class Trained:
         trained: bool = True
+        candidates: tuple[Any, ...] = (SimpleNamespace(located=located),)
 
         def actions(self, _: object) -> list[Any]:
             return [SimpleNamespace(training="fields", dimensions={})]

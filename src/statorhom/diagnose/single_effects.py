@@ -41,6 +41,7 @@ from statorhom.diagnose.refit_starts import (
 from statorhom.diagnose.scan import Scan
 from statorhom.diagnose.searched_starts import of_later_steps
 from statorhom.diagnose.side_by_side import side_by_side
+from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
 
 MOST = 12  # candidates that are refitted
@@ -216,16 +217,24 @@ def _objective(found: Refit) -> float:
 def _rival(start: Start, worth: float, known: float) -> Refit | None:
     """The nearest optimum; one that is no rival is not sought with local fields, which are dear.
 
-    One that explains most of the declared model's objective without them may be a rival with them.
+    One that explains most of the declared model's objective without them may be a rival with them, and one that is
+    nowhere in particular, like a stiffness that rises from end to end, explains hardly anything without.
     """
     hypothesis = start.hypothesis
-    if any(action.training or action.dimensions for action in hypothesis.actions(start.z)):
+    actions = hypothesis.actions(start.z)
+    if any(a.training or a.dimensions for a in actions) and not _is_a_field(start, actions):
         promising = max(worth, PROMISING * known) if np.isfinite(known) else worth
         quick = refitted(replace(hypothesis, trained=False), start.z, promising)
         if quick is None or quick.objective > promising:
             return quick
         start = replace(start, z=quick.z)
     return refitted(hypothesis, start.z, worth)
+
+
+def _is_a_field(start: Start, actions: Sequence[Action]) -> bool:
+    """Whether the last effect is all over its region, so that without local fields nothing of it is seen."""
+    number = len(start.hypothesis.candidates) - 1
+    return actions[number].training is not None and not start.hypothesis.candidates[number].located
 
 
 def _through(start: Start) -> Refit | None:
