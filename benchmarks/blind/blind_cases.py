@@ -37,7 +37,7 @@ DOUBLES = (
     (("ovality", "interlaminar_shear"), "stack"),
     (("attached_mass", "end_winding_stiffness"), "wound"),
 )
-# modes of order 2 only: a lump, a strip and an oval yoke split them alike
+# one doublet is split alike by a lump, a strip and an oval yoke; more of order 2 already tell them apart at times
 ALIKE = ("attached_mass", "local_stiffness", "ovality")
 ORDER_TWO = (("half_harmonic", 2.0),)  # an oval yoke of four waves splits order 2
 NOTHING = ("stack", "wound", "clamped", "chain")
@@ -57,7 +57,7 @@ class BlindCase:
     tables : modal tables instead of FRFs.
     strength : 0 … 1, of all effects.
     wide : the true constants are far from where a fit starts.
-    highest_order : of the modes that a table lists.
+    only : the one mode (r, n) that a table lists.
     given : parameters that are not drawn.
     """
 
@@ -69,7 +69,7 @@ class BlindCase:
     tables: bool
     strength: float
     wide: bool = False
-    highest_order: int | None = None
+    only: tuple[int, int] | None = None
     given: tuple[tuple[str, float], ...] = ()
 
     @property
@@ -154,7 +154,7 @@ def _doubles() -> list[dict[str, object]]:
 def _ambiguous() -> list[dict[str, object]]:
     rows = [
         _row("ambiguous", (ALIKE[i % len(ALIKE)],), "stack", True, STRENGTHS[i % 3 + 1])
-        | {"highest_order": 2, "given": ORDER_TWO if ALIKE[i % len(ALIKE)] == "ovality" else ()}
+        | {"only": (2, 0), "given": ORDER_TWO if ALIKE[i % len(ALIKE)] == "ovality" else ()}
         for i in range(COUNTS["ambiguous"])
     ]
     return _mixed(rows, 5)

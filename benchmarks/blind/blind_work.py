@@ -72,7 +72,7 @@ def make(work: Work, case: BlindCase) -> str | None:
             seed=case.number,
             tables=case.tables,
             wide=case.wide,
-            highest_order=case.highest_order,
+            only=case.only,
             verdict="ambiguous" if case.group == "ambiguous" else None,
         )
     except StatorhomError as error:

@@ -35,9 +35,9 @@ def test_ten_to_thirty_percent_of_the_names_are_missing(seed: int) -> None:
     assert 5 <= len(names) <= 7
 
 
-def test_orders_above_the_highest_are_missing() -> None:
-    left = shortened(doublets(0.01), np.random.default_rng(0), highest_order=2)
-    assert {m.order for m in left} <= {1, 2}
+def test_a_table_may_list_one_mode_alone() -> None:
+    left = shortened(doublets(0.01), np.random.default_rng(0), only=(2, 0))
+    assert [(m.order, m.axial) for m in left] == [(2, 0), (2, 0)]
 
 
 @given(st.integers(0, 2**31))

@@ -51,7 +51,7 @@ def conceal_study(
     tables: bool | None = None,
     wide: bool = False,
     materials: Path | None = None,
-    highest_order: int | None = None,
+    only: tuple[int, int] | None = None,
     verdict: str | None = None,
     density: MeshDensity | None = None,
 ) -> tuple[Path, Case]:
@@ -67,7 +67,7 @@ def conceal_study(
     tables : write modal tables (True) or FRFs (False) for all tests; None: as the study has them.
     wide : draw the true constants from all that is typical, far from where a fit starts.
     materials : folder of results whose identified materials are the true ones; None: they are drawn.
-    highest_order : modes of higher orders are missing in tables.
+    only : the one mode (r, n) that tables list; None: all that are usual.
     verdict : the right one where the data do not suffice for the best one ("ambiguous").
     density : of the true stator's mesh; None: what is usual of the step.
 
@@ -89,8 +89,8 @@ def conceal_study(
     known = None if materials is None else identified_materials(materials)
     named = study.model_copy(update={"name": folder.name[:60]})  # what it was called may tell too much
     case = start_case(path, named, geometry, rng, tables=tables, wide=wide, known=known)
-    if highest_order is not None:
-        case = _limited(case, highest_order)
+    if only is not None:
+        case = _limited(case, only)
     for wish in wishes:
         effect = hidden_effect(wish.effect)
         if effect is not None:
@@ -120,8 +120,8 @@ def _refuse_declared(path: Path, study: StudyFile) -> None:
             )
 
 
-def _limited(case: Case, highest_order: int) -> Case:
+def _limited(case: Case, only: tuple[int, int]) -> Case:
     for s, stage in enumerate(case.stages):
         for t in range(len(stage.tests)):
-            case = case.with_test(s, t, highest_order=highest_order)
+            case = case.with_test(s, t, only=only)
     return case

@@ -140,7 +140,7 @@ def _springs(ground: StageGround, keys: LineSupport) -> Change:
 
 
 def _table(measured: Measured, test: TrueTest, rng: np.random.Generator) -> Measured:
-    listed = shortened(measured.modes, rng, test.highest_order)
+    listed = shortened(measured.modes, rng, test.only)
     typed = listed if test.relabelled is None else relabelled(listed, test.relabelled)[0]
     return replace(measured, table=table_text(typed, rng), listed=listed)
 

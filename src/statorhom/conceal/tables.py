@@ -16,7 +16,7 @@ COLUMNS = "frequency_hz,damping_ratio,order,axial,frequency_sd_hz"
 
 
 def shortened(
-    modes: tuple[ListedMode, ...], rng: np.random.Generator, highest_order: int | None = None
+    modes: tuple[ListedMode, ...], rng: np.random.Generator, only: tuple[int, int] | None = None
 ) -> tuple[ListedMode, ...]:
     """Those of the visible modes that somebody wrote down.
 
@@ -24,9 +24,9 @@ def shortened(
     ----------
     modes : all of the band.
     rng : decides what is missing.
-    highest_order : modes of higher orders are missing as well.
+    only : the one mode (r, n) that is written down; None: all that are usual.
     """
-    seen = [m for m in resolved(modes) if highest_order is None or (m.order or 0) <= highest_order]
+    seen = [m for m in resolved(modes) if only is None or (m.order, m.axial) == only]
     names = sorted({(m.order, m.axial) for m in seen}, key=str)
     missing = min(round(rng.uniform(*MISSING) * len(names)), max(len(names) - FEWEST, 0))
     dropped = {names[i] for i in rng.permutation(len(names))[:missing]}

@@ -95,7 +95,7 @@ class TrueTest:
     slip : of a contact, with the force below.
     force_n : amplitude of the force.
     relabelled : seed of the mode that the table names wrongly; None: all names are right.
-    highest_order : modes of higher orders are missing in the table.
+    only : the one mode (r, n) that the table lists; None: all that are usual.
     """
 
     name: str
@@ -108,7 +108,7 @@ class TrueTest:
     slip: Slip | None = None
     force_n: float = 1.0
     relabelled: int | None = None
-    highest_order: int | None = None
+    only: tuple[int, int] | None = None
 
 
 @dataclass(frozen=True)
