@@ -29,6 +29,7 @@ RATE_HZ = (
     6000.0,
     15000.0,
 )  # between which a modulus that follows the frequency is interpolated
+AS_DECLARED = 1  # of these: where such a modulus has its declared value
 
 
 @dataclass(frozen=True, eq=False)
@@ -231,4 +232,6 @@ def _rated(
     several = [at_rate(materials, action.modulus_at, rate) for rate in RATE_HZ]
     tables = [named(stage.solve(each).modes, names) for each in several]
     logs = self_consistent(np.log(RATE_HZ), tables)
-    return {key: _Symmetric(tables[1][key], log_f) for key, log_f in logs.items()}
+    # the modes' places are those of the moduli as they stand
+    here = tables[AS_DECLARED]
+    return {key: _Symmetric(here[key], log_f) for key, log_f in logs.items() if key in here}

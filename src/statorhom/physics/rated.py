@@ -25,7 +25,7 @@ def at_rate(materials: Materials, laws: Laws, rate_hz: float) -> Materials:
 def self_consistent(
     log_rates: np.ndarray, tables: Sequence[Mapping[ModeKey, StatorMode]]
 ) -> dict[ModeKey, float]:
-    """ln f of the modes that all tables have.
+    """ln f of the modes that the tables around it have: those of much softer or stiffer moduli may lie beyond the band.
 
     Parameters
     ----------
@@ -33,9 +33,21 @@ def self_consistent(
     tables : t of them.
     """
     found = {}
-    for key in tables[0]:
-        if all(key in table for table in tables):
-            logs = np.log([table[key].frequency_hz for table in tables])
-            # rate - f(rate) rises: it crosses zero once
-            found[key] = float(np.interp(0.0, log_rates - logs, logs))
+    for key in dict.fromkeys(key for table in tables for key in table):
+        logs = np.array([np.log(t[key].frequency_hz) if key in t else np.nan for t in tables])
+        log_f = _crossing(log_rates - logs, logs)
+        if log_f is not None:
+            found[key] = log_f
     return found
+
+
+def _crossing(above: np.ndarray, logs: np.ndarray) -> float | None:
+    """Where `above`, which rises, is zero, ln f of the modes at its rate; None where a table beside it lacks the mode.
+
+    Beyond the first and the last table moduli count as theirs.
+    """
+    if above[0] > 0 or above[-1] < 0:
+        return float(logs[0] if above[0] > 0 else logs[-1])
+    for i in np.flatnonzero((above[:-1] <= 0) & (above[1:] >= 0)).tolist():
+        return float(np.interp(0.0, above[i : i + 2], logs[i : i + 2]))
+    return None
