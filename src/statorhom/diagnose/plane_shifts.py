@@ -9,6 +9,7 @@ import numpy as np
 
 from statorhom.diagnose.features import SHIFT_OWN
 from statorhom.diagnose.measured import PlaneShifts
+from statorhom.extraction.extraction import Loaded
 from statorhom.extraction.local_poles import local_poles
 from statorhom.extraction.measured_modes import MeasuredModes, NamedMode
 from statorhom.modes.doublets import DoubletPair
@@ -20,6 +21,7 @@ LEAST_POINTS = 4  # per plane
 LEAST_SD = 5e-6
 # the points of a plane may differ by so many standard deviations, or by that part of what the planes differ
 CONTRARY, CONTRARY_PART = 8.0, 0.1
+UNEXPLAINED = 10.0  # mean squared residual over the noise: a load that leaves more is not known
 LARGEST = 0.03  # shifts beyond are of another mode
 # half-power bandwidths beyond their spread by which all planes' poles may lie on one side of the mode's own: farther
 # off they are a neighbour's
@@ -32,6 +34,8 @@ OWN_PART, NO_SENSOR = 0.1, 5.0
 
 def plane_shifts(measured: MeasuredModes) -> tuple[PlaneShifts, ...]:
     """Shifts of every named mode that is no member of a split doublet, one for all of its images."""
+    if measured.extraction.loaded is not None:
+        return loaded_shifts(measured, measured.extraction.loaded)
     if len(measured.frf_sets) != 1:
         return ()
     split = [d for d in distinct_doublets(measured) if not _is_narrow(measured.modes, d)]
@@ -64,6 +68,27 @@ def plane_shifts(measured: MeasuredModes) -> tuple[PlaneShifts, ...]:
         )
         if shifts is not None and _may_be_a_sensors(shifts, one):
             found.append(shifts)
+    return tuple(found)
+
+
+def loaded_shifts(measured: MeasuredModes, loaded: Loaded) -> tuple[PlaneShifts, ...]:
+    """Of every named mode of a sensor's load, one for both halves of a doublet: the stronger one's."""
+    size, heights, found = _sizes(measured.modes), loaded.load.rings.heights_m, []
+    for number, (shift, sd) in enumerate(zip(loaded.shifts, loaded.load.load_sd, strict=True)):
+        own = [
+            i
+            for i, m in enumerate(loaded.mode_of)
+            if m == number and measured.modes[i].order == loaded.load.orders[number]
+        ]
+        if not own or not np.isfinite(sd).all() or loaded.load.misfit[number] > UNEXPLAINED:
+            continue
+        strongest_half = max(own, key=lambda i: size[i])
+        moved = measured.modes[strongest_half].mode.shift
+        assert moved is not None
+        # the listed frequency is that at the median of the sensor's places
+        middle = (1.0 + shift.mean()) * (1.0 + moved[loaded.load.rings.members[0][0], 0].real) / (1.0 + shift[0])
+        known = np.maximum(0.5 * sd, LEAST_SD)
+        found.append(PlaneShifts(str(strongest_half + 1), heights, shift - shift.mean(), known, float(middle - 1.0)))
     return tuple(found)
 
 

@@ -35,7 +35,7 @@ from statorhom.study.modal_table import MeasuredMode, ModalTable
 from statorhom.study.modal_tests import ModalTestKeys
 from statorhom.study.study import StudyFiles
 
-FOLDER, FORMAT = "recordings", 15  # a change of method makes what is kept stale
+FOLDER, FORMAT = "recordings", 16  # a change of method makes what is kept stale
 # A resonance of a loss factor of 8 % has others under its flanks: recordings of a known stator then miss frequencies
 # by 0.1 to 0.7 %, whatever the noise; at 5 % they hardly do.
 OVERLAP = 8.0
@@ -161,7 +161,9 @@ def _split(measured: MeasuredModes, d: DoubletPair) -> MeasuredSplit:
     mean = float(np.mean([(2 * np.pi * mode.frequency_hz) ** 2 for mode in modes]))
     sd = float(np.sqrt(np.trace(d.split_covariance) / 2)) / mean
     # of two modes that a sensor moves a point sees one: what their poles differ by is known no better than they move
-    moved = min(_moved(mode) for mode in modes)
+    # unless both are known as they are without it
+    alike = measured.extraction.loaded is not None and len({str(mode.shift) for mode in modes}) == 1
+    moved = 0.0 if alike else min(_moved(mode) for mode in modes)
     broad = overlap_sd(max(mode.loss_factor for mode in modes))
     known = float(np.linalg.norm([sd, 2.0 * moved, 2.0 * broad, _uneven(measured, d)]))
     return MeasuredSplit(str(d.lower + 1), str(d.upper + 1), d.split / mean, known)

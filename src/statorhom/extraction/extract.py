@@ -12,7 +12,9 @@ from statorhom.extraction.mode_estimates import mode_estimates
 from statorhom.extraction.mode_search import ModeSearch
 from statorhom.extraction.noise import expected_sd, noise_sd
 from statorhom.extraction.point_grid import PointGrid, point_grid
-from statorhom.extraction.stabilization import LEAST_SHARE, stabilize
+from statorhom.extraction.roving.find_load import find_load, freed
+from statorhom.extraction.roving.loaded import loaded
+from statorhom.extraction.stabilization import LEAST_SHARE, Stabilization, stabilize
 from statorhom.extraction.unresolved import without_unresolved
 from statorhom.recordings.frf_set import FrfSet
 
@@ -47,17 +49,29 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
     grid = point_grid(sets, band_hz)
     noise = noise_sd(grid)
     sd = expected_sd(grid, noise)
-    poles, parts, stabilization = stabilize(grid, sd)
-    search = ModeSearch(grid, sd, poles, parts, stabilization.lasting_squared)
     decay = float(np.mean([one.window_decay_per_s for one in sets]))
+    stable = stabilize(grid, sd)
+    search = ModeSearch(grid, sd, *stable[:2], stable[2].lasting_squared)
+    load = find_load(search, search.first_look())
+    if load is None:
+        return _extraction(search, noise, stable[2], decay)
+    grid, noise, missed = freed(grid, noise, load)
+    sd = np.hypot(expected_sd(grid, noise), missed)
+    stable = stabilize(grid, sd)
+    steady = ModeSearch(grid, sd, *stable[:2], stable[2].lasting_squared, steady=True)
+    return loaded(_extraction(steady, noise, stable[2], decay), load)
+
+
+def _extraction(search: ModeSearch, noise: FloatArray, stable: Stabilization, decay: float) -> Extraction:
+    grid = search.grid
     windows = [without_unresolved(one) for one in search.run()]
-    found = [mode for one, _ in windows for mode in mode_estimates(one, grid, stabilization, decay)]
+    found = [mode for one, _ in windows for mode in mode_estimates(one, grid, stable, decay)]
     found.sort(key=lambda mode: mode.frequency_hz)
     band = (float(grid.omega[0] / (2 * np.pi)), float(grid.omega[-1] / (2 * np.pi)))
     listed = [_is_mode(mode, band) for mode in found]
     modes = tuple(mode for mode, inside in zip(found, listed, strict=True) if inside)
     outside = tuple(mode for mode, inside in zip(found, listed, strict=True) if not inside)
-    mass_line, stiffness_line = _residual_terms(grid, sd, found)
+    mass_line, stiffness_line = _residual_terms(grid, search.sd, found)
     return Extraction(
         modes,
         outside,
@@ -69,7 +83,7 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
         mass_line,
         stiffness_line,
         float(np.median((noise / np.maximum(np.abs(grid.receptance), np.finfo(float).tiny))[grid.measured])),
-        stabilization,
+        stable,
         tuple(
             [
                 *_merged_remarks([pole for _, poles in windows for pole in poles], len(grid.references)),

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from statorhom.extraction.roving.load import RovingLoad
 from statorhom.extraction.stabilization import Stabilization
 from statorhom.recordings.dof import Dof
 
@@ -84,6 +85,27 @@ class ExtractedMode:
         return part
 
 
+@dataclass(frozen=True, eq=False)
+class Loaded:
+    """What a heavy roving sensor did to a recording.
+
+    Attributes
+    ----------
+    load : RovingLoad
+    shifts : array, shape (modes of the load, planes)
+        Relative shifts of their frequencies, with the sensor in each plane.
+    free : Extraction
+        Of the FRFs as they were without the sensor.
+    mode_of : tuple of int or None
+        Mode of the load that every listed mode is; None for modes that the sensor does not move.
+    """
+
+    load: RovingLoad
+    shifts: FloatArray
+    free: Extraction
+    mode_of: tuple[int | None, ...]
+
+
 @dataclass(frozen=True)
 class Extraction:
     """Modes of one test.
@@ -108,6 +130,9 @@ class Extraction:
     stabilization : Stabilization
     remarks : tuple of str
         What the user should know.
+    loaded : Loaded or None
+        Where a roving sensor's mass explains how the poles move: then frequencies are those under the sensor, at the
+        median of its places, and shapes and residual terms those of the structure without it.
     """
 
     modes: tuple[ExtractedMode, ...]
@@ -122,10 +147,14 @@ class Extraction:
     noise_ratio: float
     stabilization: Stabilization
     remarks: tuple[str, ...]
+    loaded: Loaded | None = None
 
     def regenerate(self, frequency_hz: npt.ArrayLike) -> ComplexArray:
         """Receptances (m/N) of all FRFs in the order in which they were read, shape (FRFs, lines)."""
         frequency = np.asarray(frequency_hz, dtype=float)
+        if self.loaded is not None:
+            weighed = self.loaded.load.denominator((2 * np.pi * frequency) ** 2)
+            return self.loaded.free.regenerate(frequency) / weighed[self.cells[:, 0]]
         grid = residual_lines(self.mass_line, self.stiffness_line, frequency)
         for mode in self.modes + self.outside:
             grid += mode.receptance(frequency)

@@ -48,21 +48,42 @@ class ModeSearch:
     """State of a search over one grid: data, noise and the modes so far."""
 
     def __init__(
-        self, grid: PointGrid, sd: FloatArray, poles: ComplexArray, parts: ComplexArray, stable: ComplexArray
+        self,
+        grid: PointGrid,
+        sd: FloatArray,
+        poles: ComplexArray,
+        parts: ComplexArray,
+        stable: ComplexArray,
+        steady: bool = False,
     ) -> None:
+        self.steady = steady  # known not to move
         self.unit = float(grid.omega[-1] ** 2)
-        self.grid = grid
+        self.grid, self.sd = grid, sd
         self.stable = stable / self.unit
         self.variance = np.where(grid.measured, sd**2.0, np.inf)
         self.set_ups: SetUps | None = None
+        self.first: list[FittedWindow] | None = None
         self.moved: list[bool] = []  # by every window, while poles may move
         self.visited: list[tuple[slice, ComplexArray]] = []
         self.modes = steady_modes(poles / self.unit, parts.reshape(len(poles), len(grid.references)))
 
+    @property
+    def omega(self) -> FloatArray:
+        """Angular frequencies of the lines over the root of `unit`."""
+        lines: FloatArray = self.grid.omega / np.sqrt(self.unit)
+        return lines
+
+    def first_look(self) -> list[FittedWindow]:
+        """The windows of the first modes, and whether poles move."""
+        self.first = [self._fitted(own) for own in clusters(self.modes.poles)]
+        if not self.steady:
+            self.set_ups = moving_set_ups([(one.window, one.fit, one.neighbours) for one in self.first])
+        return self.first
+
     def run(self) -> list[FittedWindow]:
         """Sweep until the modes settle; the windows of the clusters with their last fits."""
-        first = [self._fitted(own) for own in clusters(self.modes.poles)]
-        self.set_ups = moving_set_ups([(one.window, one.fit, one.neighbours) for one in first])
+        if self.first is None:
+            self.first_look()
         for _ in range(_SWEEPS):
             before = self.modes
             self._sweep()
@@ -70,7 +91,8 @@ class ModeSearch:
                 break
         return [self._checked(self._fitted(own)) for own in clusters(self.modes.poles)]
 
-    def _window(self, lines: slice) -> Window:
+    def window(self, lines: slice) -> Window:
+        """Data of some lines, in bins."""
         squared = self.grid.omega[lines] ** 2 / self.unit
         size = self._bin(squared)
         count = len(squared) // size * size
@@ -98,7 +120,7 @@ class ModeSearch:
 
     def _fitted(self, own: list[int]) -> FittedWindow:
         lines = cluster_lines(self.modes.poles[own], self.grid.omega / np.sqrt(self.unit))
-        window, neighbours = self._window(lines), self._neighbours(own, lines)
+        window, neighbours = self.window(lines), self._neighbours(own, lines)
         fit = refitted(window, self.modes.of(own), neighbours, self.set_ups)
         return FittedWindow(lines, window, fit, neighbours, tuple(own))
 
@@ -140,7 +162,7 @@ class ModeSearch:
         neighbours = self._neighbours(own, lines)
         if self._visited(lines, self.modes.of(own), neighbours, _SETTLED):
             return
-        window = self._window(lines)
+        window = self.window(lines)
         fit = refitted(window, self.modes.of(own), neighbours, self.set_ups)
         fit = drop_doubtful(window, fit, neighbours)
         if not self._visited(lines, fit.modes, neighbours, _SEEN):

@@ -103,11 +103,11 @@ def with_moving_modes(
     """
     if not len(fit.modes) or fit.modes.moving.any() or _is_broad(fit):
         return fit
-    distinct = _distinct(fit)
+    apart = distinct(fit)
     promising = np.max(_promises(*_in_pairs(window, fit, neighbours, set_ups), set_ups)) > 1.0
-    if not promising and len(distinct) == len(fit.modes):
+    if not promising and len(apart) == len(fit.modes):
         return fit
-    modes = fit.modes.of(distinct)
+    modes = fit.modes.of(apart)
     trial = fit_shifted(window, modes, neighbours, np.ones(len(modes), dtype=bool), set_ups)
     if set_ups is SetUps.REFERENCES:
         trial = _damped(window, trial, neighbours, set_ups)
@@ -158,7 +158,7 @@ def _other_part(part: ComplexArray) -> ComplexArray:
     return unit_part(unit - part * (part.conj() @ unit) / np.sum(np.abs(part) ** 2))
 
 
-def _distinct(fit: WindowFit) -> list[int]:
+def distinct(fit: WindowFit) -> list[int]:
     """Modes without those that overlap with a stronger one: a mode that moves has left several images."""
     poles = fit.modes.poles
     amplitude = (fit.linear.coefficients / fit.linear.norms)[:, : len(poles)]

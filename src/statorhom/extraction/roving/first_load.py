@@ -1,0 +1,77 @@
+"""A first guess of the sensor's load, from the poles of the planes and the waves of their residues."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from statorhom.extraction.roving.load import RovingLoad, load_of
+from statorhom.extraction.roving.plane_poles import PlanePoles
+from statorhom.extraction.roving.rings import Rings
+from statorhom.extraction.roving.wave import Wave, wave
+from statorhom.recordings.dof import Dof
+
+FloatArray = npt.NDArray[np.float64]
+
+_TELLING = 0.3  # of the largest fall from plane to plane: modes whose planes tell the mass
+_OWN = (0.3, 2.0)  # of the common mass: limits of what one mode's planes tell alone
+_LEAST_LOAD = 1e-7
+
+
+def first_load(found: PlanePoles, unit: float, rings: Rings, references: Sequence[Dof]) -> RovingLoad | None:
+    """Load that puts the poles where they are in every plane; None where no mass does that.
+
+    What the planes have in common tells nothing of the load: it follows from the mass.
+
+    Parameters
+    ----------
+    unit : of the search's poles ((rad/s)²).
+    """
+    count = found.poles.shape[1]
+    waves = [wave(found.residues[..., m] * unit, rings, references) for m in range(count)]
+    mobility = np.array([one.mobility for one in waves])
+    fallen = -np.log(found.poles.real.T)
+    fallen = fallen - fallen.mean(axis=1, keepdims=True)
+    masses = _masses(waves, fallen)
+    common = _weighted_median(masses, np.ptp(fallen, axis=1))
+    if common is None:
+        return None
+    tells = np.isfinite(masses) & (np.ptp(fallen, axis=1) > _TELLING * np.ptp(fallen, axis=1).max())
+    own = np.where(tells, np.clip(masses, *(common * part for part in _OWN)), common)
+    mean = np.maximum(own * mobility.mean(axis=1), -fallen.min(axis=1))
+    load = np.expm1(mean[:, None] + fallen)
+    loss = (found.poles.imag / found.poles.real).mean(axis=0)
+    bare = np.mean(found.poles.real.T * (1 + load), axis=1) * (1 + 1j * loss) * unit
+    exact = np.array([load_of(row * unit, bare) for row in found.poles]).T
+    return RovingLoad(
+        bare,
+        np.array([one.order for one in waves]),
+        np.maximum(exact.real, _LEAST_LOAD),
+        np.full(load.shape, np.inf),
+        np.zeros((count, 2)),
+        found.misfit.mean(axis=0),
+        rings,
+    )
+
+
+def _masses(waves: Sequence[Wave], fallen: FloatArray) -> FloatArray:
+    """Mass that each mode's planes tell (kg); NaN where they tell none."""
+    found = []
+    for one, fall in zip(waves, fallen, strict=True):
+        away = one.mobility - one.mobility.mean()
+        size = float(away @ away)
+        found.append(float(away @ fall) / size if one.order > 0 and size > 0 else np.nan)
+    return np.array(found)
+
+
+def _weighted_median(masses: FloatArray, spans: FloatArray) -> float | None:
+    """Of the modes that move most; None where they tell no mass."""
+    telling = np.isfinite(masses) & (spans > _TELLING * spans.max(initial=0.0))
+    if not telling.any():
+        return None
+    order = np.argsort(masses[telling])
+    share = np.cumsum(spans[telling][order])
+    middle = float(masses[telling][order][np.searchsorted(share, 0.5 * share[-1])])
+    return middle if middle > 0 else None
