@@ -25,7 +25,8 @@ def test_the_right_sensor_mass_leaves_nothing() -> None:
     shifts = PlaneShifts("1", places, shift, np.full(4, 1e-5), 0.0)
     test = MeasuredTest(0, "free", "free", (), True, (), (shifts,))
     key = (2, 1, 0)
-    response = SensorResponse(places, {key: -0.5 * square}, {key: np.zeros(4)})
+    still = {key: np.zeros(4)}
+    response = SensorResponse(places, {key: -0.5 * square}, still, still)
     right = shift_features(test, {"1": key}, response, 0.01)
     none = shift_features(test, {"1": key}, response, 0.0)
     assert max(abs(f.residual) for f in right) < 1e-6

@@ -23,7 +23,7 @@ def doublet(*shifts: np.ndarray | None, losses: tuple[float, float] = (0.0, 0.0)
     pair = SimpleNamespace(
         lower=0, upper=1, split=1e-3 * SQUARE, split_covariance=np.eye(2) * (1e-5 * SQUARE) ** 2
     )
-    return SimpleNamespace(modes=modes), pair
+    return SimpleNamespace(modes=modes, extraction=SimpleNamespace(loaded=None)), pair
 
 
 def moved(size: float) -> np.ndarray:

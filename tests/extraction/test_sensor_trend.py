@@ -9,7 +9,8 @@ import pytest
 
 from roving_sensor import MASS_KG, POLES, loaded_frfs
 from statorhom.extraction import Extraction, extract
-from statorhom.extraction.sensor_trend import sensor_trend
+from statorhom.extraction.doublet_motion import whole_doublets
+from statorhom.extraction.sensor_trend import SensorTrend, sensor_trend
 from synthetic_frfs import ring_points
 
 POINTS = ring_points(12, 4)
@@ -18,6 +19,12 @@ POINTS = ring_points(12, 4)
 @pytest.fixture(scope="module")
 def loaded() -> Extraction:
     return extract(loaded_frfs(POINTS))
+
+
+def whole_trend(found: Extraction) -> SensorTrend | None:
+    assert found.loaded is not None
+    moving, _ = whole_doublets(found.modes, found.loaded)
+    return sensor_trend(moving, {0: (2, 0), 1: (2, 1)}, found.points, found.references[0])
 
 
 def test_a_doublet_under_a_roving_sensor_is_one_mode_that_moves(loaded: Extraction) -> None:
@@ -30,7 +37,7 @@ def test_a_doublet_under_a_roving_sensor_is_one_mode_that_moves(loaded: Extracti
 
 
 def test_the_mass_and_the_frequencies_without_it(loaded: Extraction) -> None:
-    trend = sensor_trend(loaded.modes, {0: (2, 0), 1: (2, 1)}, loaded.points, loaded.references[0])
+    trend = whole_trend(loaded)
     assert trend is not None and trend.significant
     assert trend.shifts.joint.mass_kg == pytest.approx(MASS_KG, rel=0.05)
     np.testing.assert_allclose(trend.bare_hz, [pole[0] for pole in POLES], rtol=5e-4)
@@ -52,7 +59,7 @@ def test_axial_motion_of_antisymmetric_modes_counts(
     from statorhom.modes.axial_motion import AxialLever
 
     monkeypatch.setattr(module, "axial_lever", lambda *_: AxialLever(0.0, 0.0))
-    trend = sensor_trend(loaded.modes, {0: (2, 0), 1: (2, 1)}, loaded.points, loaded.references[0])
+    trend = whole_trend(loaded)
     assert trend is not None
     assert trend.bare_hz[1] < POLES[1][0] * (1 - 1e-3)
 
@@ -92,5 +99,5 @@ def test_a_mass_of_nothing_has_no_uncertain_axial_part(
 
     monkeypatch.setattr(module, "pole_shift_trend", without)
     monkeypatch.setattr(module, "_square_sd", lambda *args: square_sd(*args) + np.inf)
-    trend = sensor_trend(loaded.modes, {0: (2, 0), 1: (2, 1)}, loaded.points, loaded.references[0])
+    trend = whole_trend(loaded)
     assert trend is not None and np.all(np.isfinite(trend.bare_sd_hz))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from math import hypot, log, tanh
+from math import hypot, log, sqrt, tanh
 
 import numpy as np
 
@@ -204,8 +204,12 @@ def shift_features(
             continue
         moved = response.shift(shifts.z_m, key, sensor_kg)
         moved = moved - moved.mean()
+        # planes of one mode are no independent witnesses of its motion
+        part = hypot(SHIFT_PART * sqrt(len(moved)), response.doubt(shifts.z_m, key, shifts.shift))
         for measured, p, sd in zip(shifts.shift, moved, shifts.sd, strict=True):
-            found.append(Feature("shift", test.name, key, float(measured), float(p), _shift_sd(sd, measured)))
+            found.append(
+                Feature("shift", test.name, key, float(measured), float(p), _shift_sd(sd, part * measured))
+            )
     return found
 
 
@@ -216,5 +220,5 @@ def loading(test: MeasuredTest, key: ModeKey, response: SensorResponse, sensor_k
     return -float(np.mean(response.shift(test.shifts[0].z_m, key, sensor_kg)))
 
 
-def _shift_sd(sd: float, measured: float) -> float:
-    return float(np.sqrt(sd**2 + SHIFT_OWN**2 + (SHIFT_PART * measured) ** 2))
+def _shift_sd(sd: float, part: float) -> float:
+    return hypot(sd, SHIFT_OWN, part)

@@ -86,9 +86,13 @@ def loaded_shifts(measured: MeasuredModes, loaded: Loaded) -> tuple[PlaneShifts,
         moved = measured.modes[strongest_half].mode.shift
         assert moved is not None
         # the listed frequency is that at the median of the sensor's places
-        middle = (1.0 + shift.mean()) * (1.0 + moved[loaded.load.rings.members[0][0], 0].real) / (1.0 + shift[0])
+        middle = (
+            (1.0 + shift.mean()) * (1.0 + moved[loaded.load.rings.members[0][0], 0].real) / (1.0 + shift[0])
+        )
         known = np.maximum(0.5 * sd, LEAST_SD)
-        found.append(PlaneShifts(str(strongest_half + 1), heights, shift - shift.mean(), known, float(middle - 1.0)))
+        found.append(
+            PlaneShifts(str(strongest_half + 1), heights, shift - shift.mean(), known, float(middle - 1.0))
+        )
     return tuple(found)
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from statorhom.errors import IdentificationError, RecordingError
+from statorhom.extraction.doublet_motion import whole_doublets
 from statorhom.extraction.extract import extract
 from statorhom.extraction.extraction import ExtractedMode, Extraction
 from statorhom.extraction.flat_bodies import flat_body_names, flat_body_remarks, is_flat_body
@@ -182,13 +183,16 @@ def _with_sensor(
         return tuple(modes), None
     names = {i: (one.order, one.axial) for i, one in enumerate(modes) if one.order is not None}
     clear = [i for i, one in enumerate(modes) if i in names and one.order_share > CLEAR]
-    partners = turned_partners(extraction.modes, names, clear)
+    loaded = extraction.loaded
+    partners = {} if loaded is not None else turned_partners(extraction.modes, names, clear)
     named = tuple(
         replace(one, doublet=partners[i], features=None) if i in partners else one
         for i, one in enumerate(modes)
     )
     whole = {i: (order, axial) for i, (order, axial) in names.items() if axial is not None}
-    trend = sensor_trend(extraction.modes, whole, extraction.points, extraction.references[0])
+    moving, halves = (extraction.modes, {}) if loaded is None else whole_doublets(extraction.modes, loaded)
+    trend = sensor_trend(moving, whole, extraction.points, extraction.references[0])
+    trend = None if trend is None else replace(trend, partners=halves)
     return named, trend if trend is not None and trend.significant else None
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
@@ -46,6 +46,8 @@ class SensorTrend:
     bare_hz, bare_sd_hz : arrays, shape (modes,)
         Frequencies extrapolated to a sensor without mass; the deviation holds that of the mass, of the axial
         motion that was not measured, and of the loaded frequency. Infinite: not determined.
+    partners : mapping
+        Number of a doublet's other half → that of the half which the trend rests on, and their frequencies' ratio.
     """
 
     modes: tuple[int, ...]
@@ -54,6 +56,7 @@ class SensorTrend:
     amplitude_squared: FloatArray
     bare_hz: FloatArray
     bare_sd_hz: FloatArray
+    partners: Mapping[int, tuple[int, float]] = field(default_factory=dict)
 
     @property
     def significant(self) -> bool:
@@ -64,7 +67,13 @@ class SensorTrend:
     def bare(self) -> dict[int, tuple[float, float]]:
         """Number of a mode → its frequency without the sensor and the standard deviation (Hz), where determined."""
         rows = zip(self.modes, self.bare_hz.tolist(), self.bare_sd_hz.tolist(), strict=True)
-        return {number: (frequency, sd) for number, frequency, sd in rows if math.isfinite(sd)}
+        found = {number: (frequency, sd) for number, frequency, sd in rows if math.isfinite(sd)}
+        halves = {
+            partner: (ratio * found[number][0], ratio * found[number][1])
+            for partner, (number, ratio) in self.partners.items()
+            if number in found
+        }
+        return dict(sorted({**found, **halves}.items()))
 
     @property
     def statement(self) -> str:

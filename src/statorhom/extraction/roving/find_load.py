@@ -43,7 +43,9 @@ def find_load(search: ModeSearch, first: Sequence[FittedWindow]) -> RovingLoad |
 
 def _start(first: Sequence[FittedWindow]) -> ComplexArray:
     """One pole of every mode, in ascending frequency."""
-    poles = np.concatenate([np.zeros(0), *(one.fit.modes.poles[distinct(one.fit)] for one in first if len(one.fit.modes))])
+    poles = np.concatenate(
+        [np.zeros(0), *(one.fit.modes.poles[distinct(one.fit)] for one in first if len(one.fit.modes))]
+    )
     narrow = poles[poles.imag < _BROAD * poles.real]
     return np.asarray(narrow[np.argsort(narrow.real)], dtype=complex)
 

@@ -39,7 +39,7 @@ def first_load(found: PlanePoles, unit: float, rings: Rings, references: Sequenc
     if common is None:
         return None
     tells = np.isfinite(masses) & (np.ptp(fallen, axis=1) > _TELLING * np.ptp(fallen, axis=1).max())
-    own = np.where(tells, np.clip(masses, *(common * part for part in _OWN)), common)
+    own = np.where(tells, np.clip(masses, _OWN[0] * common, _OWN[1] * common), common)
     mean = np.maximum(own * mobility.mean(axis=1), -fallen.min(axis=1))
     load = np.expm1(mean[:, None] + fallen)
     loss = (found.poles.imag / found.poles.real).mean(axis=0)

@@ -2,7 +2,8 @@
 
 A mass m at point p turns the receptance H_pj into H_pj / (1 − ω² m G_p), with the receptance G_p of the point itself in
 all directions in which the mass follows its radial motion (Sherman & Morrison 1950). Around a resonance G_p is that of
-one doublet of order r: b/m · (cos² r(θ − α)/(s₁ − ω²) + sin² r(θ − α)/(s₂ − ω²)), b the same all around a measuring plane.
+one doublet of order r: b/m · (cos² r(θ − α)/(s₁ − ω²) + sin² r(θ − α)/(s₂ − ω²)), b the same all around a measuring
+plane. What the mass does by tangential motion, which both halves have alike, counts as part of the poles s.
 """
 
 from __future__ import annotations

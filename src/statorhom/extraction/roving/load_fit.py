@@ -27,6 +27,7 @@ _ROUNDS, _STEPS, _TRIES = 3, 8, 4
 _STEP = 1e-5  # of derivatives
 _FIRST_SPLIT = 0.03  # of the loss factor
 _SETTLED = 1e-3  # of χ²
+_PLACE = 0.5  # of the mean load: standard deviation of a doublet's place from its first guess
 _LARGEST_SPLIT, _LARGEST_LOAD = 0.02, 0.2
 
 
@@ -49,39 +50,47 @@ def _fit_mode(search: ModeSearch, load: RovingLoad, mode: int) -> RovingLoad:
     if load.orders[mode] > 0 and not load.split[mode].any():
         # two equal poles are one column
         start[-2:] = _FIRST_SPLIT * load.poles[mode].imag / load.poles[mode].real / np.sqrt(2)
-    x, chi2, covariance = _minimized(residual, start, partial(_is_physical, load))
+    x, chi2, normal = _minimized(residual, start, partial(_is_physical, load))
     if not chi2 < np.vdot(first, first).real:
         return replace(load, misfit=_with(load.misfit, mode, np.vdot(first, first).real / freedom))
     load = _with_unknowns(load, mode, x)
-    misfit = max(chi2 / freedom, 1.0)
-    sd = np.sqrt(np.diag(covariance)[: load.load.shape[1]] * misfit / 2)
+    planes = load.load.shape[1]
+    # of the loads against each other: with the place all of them change alike
+    others = np.delete(np.arange(len(x)), planes + 1)
+    covariance = np.linalg.pinv(normal[np.ix_(others, others)], hermitian=True)
+    sd = np.sqrt(np.diag(covariance)[:planes] * max(chi2 / freedom, 1.0) / 2)
     return replace(
         load, load_sd=_with(load.load_sd, mode, sd), misfit=_with(load.misfit, mode, chi2 / freedom)
     )
 
 
 def _unknowns(load: RovingLoad, mode: int) -> FloatArray:
-    """Loads of the planes, loss factor and, of doublets, the split."""
+    """Loads of the planes, loss factor, relative change of the place and, of doublets, the split."""
     loss = load.poles[mode].imag / load.poles[mode].real
     split = load.split[mode] if load.orders[mode] > 0 else np.zeros(0)
-    return np.concatenate([load.load[mode], [loss], split])
+    return np.concatenate([load.load[mode], [loss, 0.0], split])
 
 
 def _with_unknowns(load: RovingLoad, mode: int, x: FloatArray) -> RovingLoad:
     planes = load.load.shape[1]
-    split = x[planes + 1 :] if load.orders[mode] > 0 else np.zeros(2)
+    split = x[planes + 2 :] if load.orders[mode] > 0 else np.zeros(2)
     return replace(
         load,
         load=_with(load.load, mode, x[:planes]),
-        poles=_with(load.poles, mode, load.poles[mode].real * (1 + 1j * x[planes])),
+        poles=_with(load.poles, mode, load.poles[mode].real * (1 + x[planes + 1]) * (1 + 1j * x[planes])),
         split=_with(load.split, mode, split),
     )
 
 
 def _is_physical(load: RovingLoad, x: FloatArray) -> bool:
     planes = load.load.shape[1]
-    loads, loss, split = x[:planes], x[planes], x[planes + 1 :]
-    return bool(loads.min() > 0 and loads.max() < _LARGEST_LOAD and loss > 0 and np.linalg.norm(split) < _LARGEST_SPLIT)
+    loads, loss, split = x[:planes], x[planes], x[planes + 2 :]
+    return bool(
+        loads.min() > 0
+        and loads.max() < _LARGEST_LOAD
+        and loss > 0
+        and np.linalg.norm(split) < _LARGEST_SPLIT
+    )
 
 
 def _with(array: npt.NDArray, row: int, value: object) -> npt.NDArray:
@@ -98,6 +107,7 @@ def _residual(search: ModeSearch, load: RovingLoad, mode: int) -> Residual:
     others = load.denominator(squared) + load.part(mode, squared)
     halves = [load.halves(m) for m in nearest_modes(load.poles, [mode])]
     beside = alone(np.unique(np.array(halves).ravel()) / search.unit)
+    planes = load.load.shape[1]
 
     def residual(x: FloatArray) -> tuple[ComplexArray, int]:
         changed = _with_unknowns(load, mode, x)
@@ -108,7 +118,11 @@ def _residual(search: ModeSearch, load: RovingLoad, mode: int) -> Residual:
         flat = phi.reshape(1, phi.shape[1], -1)
         rest = freed.values.reshape(len(freed.values), -1) - fitted(linear.coefficients / linear.norms, flat)
         rest = rest * np.sqrt(freed.weights.reshape(len(freed.values), -1))
-        return rest.ravel(), max(int(np.count_nonzero(freed.weights)) - linear.coefficients.size, 1)
+        # only a split tells where a doublet lies without the sensor
+        kept = x[planes + 1] / (_PLACE * load.load[mode].mean())
+        return np.append(rest.ravel(), kept), max(
+            int(np.count_nonzero(freed.weights)) - linear.coefficients.size, 1
+        )
 
     return residual
 
@@ -127,7 +141,7 @@ def _freed(window: Window, denominator: ComplexArray) -> Window:
 def _minimized(
     residual: Residual, x: FloatArray, allowed: Callable[[FloatArray], bool]
 ) -> tuple[FloatArray, float, FloatArray]:
-    """Levenberg–Marquardt with differences: unknowns, χ² and their covariance but for the noise."""
+    """Levenberg–Marquardt with differences: unknowns, χ² and half its curvature."""
     rest, _ = residual(x)
     chi2, damping = np.vdot(rest, rest).real, 1e-3
     for _ in range(_STEPS):
@@ -149,4 +163,4 @@ def _minimized(
         chi2, damping = chi2 - gained, max(damping / 10, 1e-9)
         if gained < _SETTLED * chi2:
             break
-    return x, float(chi2), np.linalg.pinv(normal, hermitian=True)
+    return x, float(chi2), normal

@@ -93,16 +93,16 @@ def _fit_cluster(search: ModeSearch, rings: Rings, state: PlanePoles, own: list[
     lines = cluster_lines(state.poles[:, own].mean(axis=0), search.omega)
     window = search.window(lines)
     for z, rows in enumerate(rings.members):
-        here = single_reference(
-            replace(window, values=window.values[rows], weights=window.weights[rows])
-        )
+        here = single_reference(replace(window, values=window.values[rows], weights=window.weights[rows]))
         beside = alone(state.poles[z, nearest_modes(state.poles[z], own)])
         start = state.poles[z, own]
         fit = fit_window(here, alone(_scanned(here, start, beside) if scan else start), beside)
         state.poles[z, own] = fit.modes.poles
         residues = (fit.linear.coefficients / fit.linear.norms)[:, : len(own)]
-        state.residues[np.ix_(rows, range(state.residues.shape[1]), own)] = residues.reshape(len(rows), -1, len(own))
-        freedom = max(np.count_nonzero(here.weights) - fit.linear.coefficients.size, 1)
+        shaped = residues.reshape(len(rows), -1, len(own))
+        for number, mode in enumerate(own):
+            state.residues[rows, :, mode] = shaped[..., number]
+        freedom = max(int(np.count_nonzero(here.weights)) - fit.linear.coefficients.size, 1)
         state.misfit[z, own] = fit.chi2 / freedom
 
 
