@@ -205,7 +205,7 @@ def shift_features(
         moved = response.shift(shifts.z_m, key, sensor_kg)
         moved = moved - moved.mean()
         # planes of one mode are no independent witnesses of its motion
-        part = hypot(SHIFT_PART * sqrt(len(moved)), response.doubt(shifts.z_m, key, shifts.shift))
+        part = hypot(SHIFT_PART, response.doubt(shifts.z_m, key, shifts.shift)) * sqrt(len(moved))
         for measured, p, sd in zip(shifts.shift, moved, shifts.sd, strict=True):
             found.append(
                 Feature("shift", test.name, key, float(measured), float(p), _shift_sd(sd, part * measured))
