@@ -14,6 +14,7 @@ FloatArray = npt.NDArray[np.float64]
 
 _NEAR = 0.6  # half-power bandwidths, beside half of the split
 _FAINT = 0.05  # of a mode's peak: what a load that is not quite right leaves of it where it was
+_UNLIKE, _FAINT_AND_UNLIKE = 0.15, 0.2  # the same of one whose loss factor differs by as much
 _BESIDE = 1.5  # half-power bandwidths
 
 
@@ -55,7 +56,10 @@ def _is_image(mode: ExtractedMode, load: RovingLoad, shifts: FloatArray, stronge
     reach = _BESIDE * load.poles.imag
     place = mode.observed.real
     near = (lowest - reach < place) & (place < load.poles.real + reach)
-    return bool(np.any(near & (_peak(mode) < _FAINT * strongest)))
+    # halves of a doublet dissipate alike
+    loss, own = load.poles.imag / load.poles.real, mode.observed.imag / mode.observed.real
+    least = np.where(np.abs(own / loss - 1) > _UNLIKE, _FAINT_AND_UNLIKE, _FAINT)
+    return bool(np.any(near & (_peak(mode) < least * strongest)))
 
 
 def _moved(mode: ExtractedMode, shifts: FloatArray | None, load: RovingLoad) -> ExtractedMode:
