@@ -26,6 +26,18 @@ def test_a_mode_lies_where_the_moduli_at_its_frequency_put_it() -> None:
     assert np.exp(found[0, 1, 0]) == pytest.approx(500.0 ** (1 / 0.75))
 
 
+@pytest.mark.parametrize("slope", [0.1, 0.5, 1.2])
+def test_a_modulus_that_rises_by_decades_is_followed_to_a_fiftieth_of_a_percent(slope: float) -> None:
+    def at(rate_hz: float) -> float:
+        return 1500.0 * float(np.sqrt(0.5 + 0.5 * (1 + slope * np.log10(rate_hz / 1000.0))))
+
+    exact = 2000.0
+    for _ in range(60):
+        exact = at(exact)
+    found = self_consistent(RATES, [{(0, 1, 0): mode(at(rate))} for rate in np.exp(RATES)])
+    assert np.exp(found[0, 1, 0]) == pytest.approx(exact, rel=2e-4)
+
+
 def test_a_mode_that_stiffer_moduli_put_beyond_the_band_is_found_all_the_same() -> None:
     whole, cut = tables(500.0, 0.25), tables(500.0, 0.25, highest_hz=5000.0)
     assert not cut[-1] and cut[-2]
