@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Generic
 
 import numpy as np
@@ -83,9 +83,7 @@ class Explanation(Generic[H]):
         rows, worst = len(self._residuals[0]), float(np.max(self._of_modes**2, initial=0.0))
         if rows < ROWS:
             return self.adequacy
-        draws = np.random.default_rng(0).chisquare(1.0, (DRAWS, rows))
-        rest = draws.sum(axis=1) - draws.max(axis=1)
-        return float(np.mean(rest >= self._misfit - worst))
+        return float(np.mean(_rests(rows) >= self._misfit - worst))
 
     @property
     def _misfit(self) -> float:
@@ -111,6 +109,13 @@ class Explanation(Generic[H]):
         lossy = np.array([f.kind in UNCERTAIN for f in found], dtype=bool)
         residuals = np.array([f.residual for f in found])
         return residuals[~lossy], residuals[lossy]
+
+
+@cache
+def _rests(rows: int) -> np.ndarray:
+    """Draws (`DRAWS`,) of a sum of squares of noise without its largest one."""
+    draws = np.random.default_rng(0).chisquare(1.0, (DRAWS, rows))
+    return np.asarray(draws.sum(axis=1) - draws.max(axis=1))
 
 
 def nothing(base: Refit) -> Explanation:
