@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
-from statorhom.diagnose.sharper import _arcs
+from statorhom.diagnose import sharper as module
+from statorhom.diagnose.sharper import _arcs, at_its_own_materials
 from statorhom.physics.action import Action, Joint
 
 WOUND = ("winding", "overhang")
@@ -29,3 +33,24 @@ def test_no_arc_is_wider_than_the_circle() -> None:
 
 def test_contacts_that_are_the_same_all_around_need_no_arcs() -> None:
     assert _arcs([Action(), joint(None)]) == ()
+
+
+@pytest.mark.parametrize(
+    ("moved", "symmetric", "objectives", "reported"),
+    [
+        (True, False, [40.0, 25.0, 24.5, 10.0], 24.5),  # what gains little is the end
+        (True, False, [40.0, 44.0, 10.0], 40.0),  # and what is worse is not taken
+        (True, False, [40.0, 30.0, 20.0, 10.0, 0.0], 10.0),  # no more than a few rounds
+        (False, False, [40.0, 10.0], 40.0),
+        (True, True, [40.0, 10.0], 40.0),  # materials alone need no solution at them
+    ],
+)
+def test_what_is_reported_is_solved_at_its_own_materials(
+    monkeypatch: pytest.MonkeyPatch, moved: bool, symmetric: bool, objectives: list[float], reported: float
+) -> None:
+    steps = [SimpleNamespace(refit=SimpleNamespace(objective=o)) for o in objectives]
+    monkeypatch.setattr(module, "_has_moved", lambda _: moved)
+    monkeypatch.setattr(module, "_keeps_symmetry", lambda _: symmetric)
+    monkeypatch.setattr(module, "_sharpened", lambda one: steps[steps.index(one) + 1])
+    begin: Any = steps[0]
+    assert at_its_own_materials(begin).refit.objective == reported

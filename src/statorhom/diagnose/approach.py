@@ -16,7 +16,7 @@ from statorhom.diagnose.mirrored import at_likelier_height
 from statorhom.diagnose.next_measurement import Choice, next_measurement
 from statorhom.diagnose.place_rows import angle_rows, machine_row, map_rows, opposite_rows
 from statorhom.diagnose.refit import Refit
-from statorhom.diagnose.sharper import refined, sharpened
+from statorhom.diagnose.sharper import at_its_own_materials, refined, sharpened
 from statorhom.results.diagnosis import Location, PlanLocation
 from statorhom.study.study import StudyFiles
 
@@ -49,7 +49,8 @@ class Approach:
 
 
 def _ring_final(explanation: Explanation) -> Explanation:
-    return at_likelier_height(explanation if explanation.settled else sharpened(explanation))
+    own = explanation if explanation.settled else sharpened(explanation)
+    return at_likelier_height(at_its_own_materials(own))
 
 
 def _ring_pictures(

@@ -34,6 +34,9 @@ from statorhom.physics.action import Action
 MOST = 3  # explanations that get models of their own before a second effect is sought
 ROUNDS = 3  # models of one explanation
 SETTLED = 2.0  # of the objective, that another one must have gained
+MOVED = (
+    0.2  # of the logarithm of a stiffness: from its reference, at which what breaks the symmetry is solved
+)
 WORSE = 10.0  # of the objective, by which a model of its own is worse than the common one
 VAGUE = 1.0  # prior standard deviation of a logarithm from which on a constant may be far on either side
 ASIDE = 1.5  # prior standard deviations to either side where such a constant is tried
@@ -62,6 +65,37 @@ def sharpened(explanation: Explanation, *, leads: bool = True) -> Explanation:
         return found
     deeper = at_fitting_height(_on_other_sides(found.refit))
     return found if deeper is found.refit else _sharpened(replace(found, refit=deeper))
+
+
+def at_its_own_materials(explanation: Explanation) -> Explanation:
+    """What is reported: where constants have left the materials at which the broken symmetry is solved, solved anew.
+
+    An explanation that leaves no more than noise may still be on its way: what is unequal along the axis and how stiff
+    it is in the mean make up for each other, and both follow the reference.
+    """
+    for _ in range(ROUNDS):
+        if _keeps_symmetry(explanation.refit) or not _has_moved(explanation.refit):
+            break
+        again = _sharpened(explanation)
+        gained = explanation.refit.objective - again.refit.objective
+        if gained > 0:
+            explanation = again
+        if gained < SETTLED:
+            break
+    return explanation
+
+
+def _has_moved(r: Refit) -> bool:
+    """Whether any region's stiffness has left that of its stage's reference."""
+    hypothesis = r.hypothesis
+    values, actions = hypothesis.study.constants.values(r.z[: hypothesis.constants]), hypothesis.actions(r.z)
+    for stage in hypothesis.study.stages:
+        materials = acted_materials(hypothesis.study, stage, values, actions)
+        for region, reference in stage.reference.items():
+            now, then = (np.diag(m.hooke.matrix) for m in (materials[region], reference))
+            if np.abs(np.log(now / then)).max() > MOVED:
+                return True
+    return False
 
 
 def _sharpened(explanation: Explanation) -> Explanation:

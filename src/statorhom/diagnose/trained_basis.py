@@ -52,18 +52,18 @@ class TrainedBasis:
         return TrainedBasis(basis, columns)
 
     def trained(
-        self, examples: Sequence[Change], named: Mapping[ModeKey, tuple[Harmonic, float]]
+        self, examples: Sequence[Sequence[Change]], named: Mapping[ModeKey, tuple[Harmonic, float]]
     ) -> TrainedBasis:
         """With the responses of the named modes to some changes.
 
         Parameters
         ----------
-        examples : each by itself.
+        examples : changes at once, one example after the other.
         named : problem and frequency (Hz) of the named modes.
         """
         found = self
-        for change in examples:
-            modes = solve_broken(found.basis, [change], tolerance=None)
+        for changes in examples:
+            modes = solve_broken(found.basis, changes, tolerance=None)
             rows = [i for c in found.columns.values() for i in c.numbers]
             used = np.sum(modes.participation[rows] ** 2, axis=0) > OWN
             values, x = modes.eigenvalues[used], modes.coordinates[:, used]

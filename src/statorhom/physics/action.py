@@ -13,7 +13,7 @@ from statorhom.study.supports import SupportKeys
 
 MaterialRule = Callable[[Materials], Materials]
 ChangeRule = Callable[[HalfPitchMesh, Materials], tuple[Change, ...]]
-TrainingRule = Callable[[HalfPitchMesh, Materials], tuple[Change, ...]]
+TrainingRule = Callable[[HalfPitchMesh, Materials], tuple[tuple[Change, ...], ...]]
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,8 @@ class Training:
     Parameters
     ----------
     key : tells it from others.
-    examples : from mesh and materials to changes, each an example of its own: places within half a slot pitch.
+    examples : from mesh and materials to examples, each of the changes that it makes at once: places within half a slot
+        pitch, or strengths.
     """
 
     key: str

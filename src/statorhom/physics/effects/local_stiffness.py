@@ -92,10 +92,12 @@ class LocalStiffness(Effect):
             ratio, place, depth = values["stiffness_ratio"], values["angle_rad"], 1e-3 * values["depth_mm"]
             return (strip(core, place, width=WIDTH_RAD, depth=depth, ratio=ratio),)
 
-        def examples(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
+        def examples(mesh: HalfPitchMesh, materials: Materials) -> tuple[tuple[Change, ...], ...]:
             core = yoke_layers(mesh, materials[core_region(materials)], mesh.outer_radius - yoke)
             places, depth = np.array([0.0, 0.5, 1.0]) * np.pi / mesh.slots, USUAL_DEPTH * yoke
-            return tuple(strip(core, place, width=WIDTH_RAD, depth=depth, ratio=TRAINED) for place in places)
+            return tuple(
+                (strip(core, place, width=WIDTH_RAD, depth=depth, ratio=TRAINED),) for place in places
+            )
 
         return Action(changes=changes, training=Training(self.name, examples))
 

@@ -24,7 +24,8 @@ from statorhom.study.regions import core_region
 from statorhom.study.study import StudyFiles
 
 RATIO = EffectParameter("G_rz_end_ratio", 0.15, 3.0, 0.02, 20.0, "log", (0.5, 1.8), 1.0)
-TRAINED = 0.4  # strength of the example: its fields are those of other strengths too
+# Strengths of the examples, one after the other: a strong one bends what a weak one does not
+TRAINED = (0.4, 0.15)
 SHEAR = tuple(entry in ((3, 3), (4, 4)) for entry in HOOKE_ENTRIES)  # between sheets and across them
 
 
@@ -59,9 +60,12 @@ class StackPressureGradient(Effect):
             where = (core,)
             return gradient(mesh, normal, where, weight), gradient(mesh, shear, where, surplus)
 
+        def examples(mesh: HalfPitchMesh, materials: Materials) -> tuple[tuple[Change, ...], ...]:
+            return tuple(varied(mesh, materials, ratio) for ratio in TRAINED)
+
         return Action(
             changes=partial(varied, ratio=values["G_rz_end_ratio"]),
-            training=Training(self.name, partial(varied, ratio=TRAINED)),
+            training=Training(self.name, examples),
         )
 
 
