@@ -132,23 +132,31 @@ class Cords:
 
 @dataclass(frozen=True)
 class AxialSlope:
-    """The lamination's material changes linearly from the middle of the core towards the materials of its ends."""
+    """The lamination's material changes along the core.
 
-    upper: Material
-    lower: Material
+    Parameters
+    ----------
+    materials : at equal distances from z = 0 to the other end, an odd number of them; Hooke's matrices are linear in
+        between, and in the middle the material is the stage's own.
+    """
+
+    materials: tuple[Material, ...]
 
     def changes(self, ground: Ground) -> tuple[Change, ...]:
         """On a mesh."""
-        length = ground.mesh.length
-        found = []
-        for end, sign in ((self.upper, 1.0), (self.lower, -1.0)):
-            along = _ramp(length, sign)
-            found.append(gradient(ground.mesh, ground.pieces("lamination", end), ("lamination",), along))
-        return tuple(found)
+        count = len(self.materials)
+        heights = np.linspace(0.0, ground.mesh.length, count)
+        return tuple(
+            gradient(ground.mesh, ground.pieces("lamination", material), ("lamination",), _share(heights, k))
+            for k, material in enumerate(self.materials)
+            if k != count // 2
+        )
 
 
-def _ramp(length: float, sign: float) -> Callable[[np.ndarray], np.ndarray]:
-    return lambda z: np.maximum(sign * (2 * z / length - 1), 0.0)
+def _share(heights: np.ndarray, number: int) -> Callable[[np.ndarray], np.ndarray]:
+    """Height → share of the material at one of some heights."""
+    own = np.eye(len(heights))[number]
+    return lambda z: np.interp(z, heights, own)
 
 
 @dataclass(frozen=True)

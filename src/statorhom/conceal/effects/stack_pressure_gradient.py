@@ -10,6 +10,8 @@ from statorhom.conceal.breaks import AxialSlope
 from statorhom.conceal.hidden_effect import Drawn, HiddenEffect, Place
 from statorhom.conceal.truth import Case, Finding
 
+HEIGHTS = 5  # along the core, between which the material is interpolated
+
 
 def _parameters(place: Place) -> tuple[Drawn, ...]:
     del place
@@ -22,20 +24,22 @@ def _apply(place: Place, values: Mapping[str, float], rng: np.random.Generator) 
     ratio = values["G_rz_end_ratio"]
     slope = (ratio - 1) / (ratio + 1)
 
-    def end(factor: float) -> dict[str, float]:
+    def scaled(factor: float) -> dict[str, float]:
         return {
             name: factor * own.constants[name]
             for name in ("G_rz_pa", "G_tz_pa", "E_z_pa")
             if name in own.constants
         }
 
-    upper, lower = (own.with_constants(**end(1 + s * slope)).material for s in (1, -1))
+    # moduli are linear along z, Hooke's matrices are not
+    along = np.linspace(-1.0, 1.0, HEIGHTS)
+    materials = tuple(own.with_constants(**scaled(1 + s * slope)).material for s in along.tolist())
     parameters = {
         "G_rz_end_ratio": ratio,
         "note": "G_rz and E_z at z = L over those at z = 0, linear in between, the mean unchanged",
     }
     finding = Finding("stack_pressure_gradient", place.true_stage.keys.name, parameters)
-    return place.case.with_broken(place.stage, AxialSlope(upper, lower)).with_finding(finding)
+    return place.case.with_broken(place.stage, AxialSlope(materials)).with_finding(finding)
 
 
 def _fits(place: Place) -> bool:
