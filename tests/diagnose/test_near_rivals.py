@@ -69,6 +69,7 @@ def test_near_rivals_get_models_of_their_own(monkeypatch: pytest.MonkeyPatch) ->
 
 def test_what_stands_in_a_model_of_its_own_is_not_sought_again(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(approach, "at_likelier_height", lambda e: e)
+    monkeypatch.setattr(approach, "at_its_own_materials", lambda e: e)
     monkeypatch.setattr(approach, "sharpened", lambda e: replace(e, log_evidence=5.0))
     assert approach._ring_final(Said(LUMP, 0.0, settled=True)).log_evidence == 0.0  # type: ignore[arg-type]
     assert approach._ring_final(Said(LUMP, 0.0)).log_evidence == 5.0  # type: ignore[arg-type]
