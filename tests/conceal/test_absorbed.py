@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from statorhom.conceal.absorbed import absorbed
+from statorhom.conceal.absorbed import Misfit, _settled, absorbed
 from statorhom.conceal.declared_residual import WIDEST_SPLIT, Residual, _aligned
 
 SPREADS = {"winding (wound).E_pa": 0.5, "lamination (stack).E_pa": 0.5}
@@ -96,3 +96,22 @@ def test_two_lines_farther_apart_than_a_doublet_have_modes_of_their_own() -> Non
     assert _aligned((791.0, 1472.0, 1679.0), (1080.0, 2269.0, 3289.0), True) == (0, 1, 2)
     assert _aligned((1000.0, 1010.0), (1005.0, 2000.0), True) == (0, 0)
     assert _aligned((1000.0, 1010.0), (1005.0, 2000.0), False) == (0, 1)
+
+
+def test_a_valley_that_is_far_off_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("statorhom.conceal.absorbed.PATIENCE", 3)
+    asked = []
+
+    class Counted(Curved):
+        def residual(self, changes) -> Residual:
+            asked.append(changes)
+            return super().residual(changes)
+
+    test = Counted((-6.0, 6.0), offset=1.0)
+    begin = Misfit((test.residual({}),), NAMES, np.zeros(2))
+    whole = _settled(begin, [test])
+    steps = len(asked)
+    asked.clear()
+    left = _settled(begin, [test], far=0.0)
+    assert len(asked) == 3 < steps
+    assert left.merit > whole.merit
