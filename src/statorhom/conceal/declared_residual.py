@@ -73,22 +73,18 @@ class DeclaredTest:
     def residual(self, changes: Mapping[str, float]) -> Residual | None:
         """With the constants' logarithms changed; None where a mode has no partner or no material is like that."""
         if not changes:
-            return self._of(self.modes, self._frequencies_hz)
+            return self._of(self.modes, self.modes.frequencies_hz)
         try:
             moved = self.rough.changed(changes).modes(self.orders, self.highest_hz)
         except StatorhomError:
             return None
-        begin = self._rough_begin.named
+        begin, now = self._rough_begin.frequencies_hz, moved.frequencies_hz
         frequencies_hz = {
-            key: hz * moved.named[key].frequency_hz / begin[key].frequency_hz
-            for key, hz in self._frequencies_hz.items()
-            if key in moved.named and key in begin
+            key: hz * now[key] / begin[key]
+            for key, hz in self.modes.frequencies_hz.items()
+            if key in now and key in begin
         }
         return self._of(moved, frequencies_hz)
-
-    @cached_property
-    def _frequencies_hz(self) -> Mapping[Key, float]:
-        return {key: mode.frequency_hz for key, mode in self.modes.named.items()}
 
     @cached_property
     def _rough_begin(self) -> DeclaredModes:
@@ -129,8 +125,7 @@ def declared_test(case: Case, measured: Measured, density: MeshDensity | None) -
     except StatorhomError:
         return None  # typed data that no stator can have are seen without any test
     met: dict[Name, list[float]] = defaultdict(list)
-    named = {key: mode.frequency_hz for key, mode in modes.named.items()}
-    for frequency_hz, key in _partners(true_hz, named):
+    for frequency_hz, key in _partners(true_hz, modes.frequencies_hz):
         met[key[:2]].append(frequency_hz)
     return DeclaredTest(test.name, modes, rough, met, highest_hz) if met else None
 

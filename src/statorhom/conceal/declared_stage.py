@@ -90,6 +90,11 @@ class DeclaredModes:
                 counts[mode.order, mode.axial] += 1
         return named
 
+    @cached_property
+    def frequencies_hz(self) -> Mapping[Key, float]:
+        """Of the named modes."""
+        return {key: mode.frequency_hz for key, mode in self.named.items()}
+
     def slopes(self, keys: Sequence[Key]) -> dict[str, np.ndarray]:
         """Constant → ∂ ln f/∂ ln p of some modes, by their strain energies."""
         stage = self.stage

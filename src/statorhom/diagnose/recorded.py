@@ -162,7 +162,8 @@ def _split(measured: MeasuredModes, d: DoubletPair) -> MeasuredSplit:
     sd = float(np.sqrt(np.trace(d.split_covariance) / 2)) / mean
     # of two modes that a sensor moves a point sees one: what their poles differ by is known no better than they move
     # unless both are known as they are without it
-    alike = measured.extraction.loaded is not None and len({str(mode.shift) for mode in modes}) == 1
+    loaded = measured.extraction.loaded
+    alike = loaded is not None and loaded.mode_of[d.lower] == loaded.mode_of[d.upper]
     moved = 0.0 if alike else min(_moved(mode) for mode in modes)
     broad = overlap_sd(max(mode.loss_factor for mode in modes))
     known = float(np.linalg.norm([sd, 2.0 * moved, 2.0 * broad, _uneven(measured, d)]))

@@ -7,7 +7,7 @@ valley that the right belief does not have.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -26,9 +26,10 @@ from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.mirrored import at_fitting_height
 from statorhom.diagnose.prediction import acted_materials
 from statorhom.diagnose.refit import Refit, evaluated
-from statorhom.diagnose.stage_model import mesh_error, with_reference
+from statorhom.diagnose.stage_model import StageModel, mesh_error, with_reference
 from statorhom.diagnose.valleys import APART, FAR_BEHIND
 from statorhom.errors import StatorhomError
+from statorhom.model.affine import Materials
 from statorhom.physics.action import Action
 
 MOST = 3  # explanations that get models of their own before a second effect is sought
@@ -87,15 +88,20 @@ def at_its_own_materials(explanation: Explanation) -> Explanation:
 
 def _has_moved(r: Refit) -> bool:
     """Whether any region's stiffness has left that of its stage's reference."""
-    hypothesis = r.hypothesis
-    values, actions = hypothesis.study.constants.values(r.z[: hypothesis.constants]), hypothesis.actions(r.z)
-    for stage in hypothesis.study.stages:
-        materials = acted_materials(hypothesis.study, stage, values, actions)
+    for stage, materials in _acted(r):
         for region, reference in stage.reference.items():
             now, then = (np.diag(m.hooke.matrix) for m in (materials[region], reference))
             if np.abs(np.log(now / then)).max() > MOVED:
                 return True
     return False
+
+
+def _acted(r: Refit) -> Iterator[tuple[StageModel, Materials]]:
+    """Stages with the materials that constants and effects give them."""
+    hypothesis = r.hypothesis
+    values, actions = hypothesis.study.constants.values(r.z[: hypothesis.constants]), hypothesis.actions(r.z)
+    for stage in hypothesis.study.stages:
+        yield stage, acted_materials(hypothesis.study, stage, values, actions)
 
 
 def _sharpened(explanation: Explanation) -> Explanation:
@@ -112,12 +118,9 @@ def _sharpened(explanation: Explanation) -> Explanation:
 
 def _own_model(r: Refit, *, mesh_known: bool = False) -> Hypothesis:
     """With basis and, unless the old ones do, mesh factors of its own materials; to be paired anew."""
-    hypothesis = r.hypothesis
-    values, actions = hypothesis.study.constants.values(r.z[: hypothesis.constants]), hypothesis.actions(r.z)
-    stages = []
-    for stage in hypothesis.study.stages:
-        materials = acted_materials(hypothesis.study, stage, values, actions)
-        near = with_reference(stage, materials, _arcs(actions))
+    hypothesis, arcs, stages = r.hypothesis, _arcs(r.hypothesis.actions(r.z)), []
+    for stage, materials in _acted(r):
+        near = with_reference(stage, materials, arcs)
         if not mesh_known:
             near = near.with_error(mesh_error(stage.setup, near.ring, materials, stage.density))
         stages.append(near)

@@ -50,16 +50,20 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
     noise = noise_sd(grid)
     sd = expected_sd(grid, noise)
     decay = float(np.mean([one.window_decay_per_s for one in sets]))
-    stable = stabilize(grid, sd)
-    search = ModeSearch(grid, sd, *stable[:2], stable[2].lasting_squared)
+    search, stable = _search(grid, sd)
     load = find_load(search, search.first_look())
     if load is None:
-        return _extraction(search, noise, stable[2], decay)
+        return _extraction(search, noise, stable, decay)
     grid, noise, missed = freed(grid, noise, load)
     sd = np.hypot(expected_sd(grid, noise), missed)
-    stable = stabilize(grid, sd)
-    steady = ModeSearch(grid, sd, *stable[:2], stable[2].lasting_squared, steady=True)
-    return loaded(_extraction(steady, noise, stable[2], decay), load)
+    search, stable = _search(grid, sd, steady=True)
+    return loaded(_extraction(search, noise, stable, decay), load)
+
+
+def _search(grid: PointGrid, sd: FloatArray, steady: bool = False) -> tuple[ModeSearch, Stabilization]:
+    """A search that begins at the stable poles; `steady`: of a recording whose poles are known not to move."""
+    poles, parts, stabilization = stabilize(grid, sd)
+    return ModeSearch(grid, sd, poles, parts, stabilization.lasting_squared, steady), stabilization
 
 
 def _extraction(search: ModeSearch, noise: FloatArray, stable: Stabilization, decay: float) -> Extraction:

@@ -115,11 +115,11 @@ class ModeSearch:
         return int(max(1, min(narrowest / _BINS_PER_BANDWIDTH, len(squared) / _ENOUGH_BINS)))
 
     def _neighbours(self, own: list[int], lines: slice) -> Modes:
-        beside = nearest(self.modes.poles, own, lines, self.grid.omega / np.sqrt(self.unit))
+        beside = nearest(self.modes.poles, own, lines, self.omega)
         return self.modes.of(beside)
 
     def _fitted(self, own: list[int]) -> FittedWindow:
-        lines = cluster_lines(self.modes.poles[own], self.grid.omega / np.sqrt(self.unit))
+        lines = cluster_lines(self.modes.poles[own], self.omega)
         window, neighbours = self.window(lines), self._neighbours(own, lines)
         fit = refitted(window, self.modes.of(own), neighbours, self.set_ups)
         return FittedWindow(lines, window, fit, neighbours, tuple(own))
@@ -130,7 +130,7 @@ class ModeSearch:
         return replace(one, fit=kept)
 
     def _sweep(self) -> None:
-        omega = self.grid.omega / np.sqrt(self.unit)
+        omega = self.omega
         groups = clusters(self.modes.poles)
         windows = [cluster_lines(self.modes.poles[own], omega) for own in groups]
         for own, lines in zip(groups, windows, strict=True):

@@ -44,9 +44,8 @@ def wave(residues: ComplexArray, rings: Rings, references: Sequence[Dof]) -> Wav
 def _order(values: FloatArray, rings: Rings) -> int:
     energy = []
     for order in range(rings.highest_order + 1):
-        found = _fitted(values, rings, order)
-        energy.append(sum(float(np.sum((_around(rings, rows, order) @ found[z]) ** 2))
-                          for z, rows in enumerate(rings.members)))  # fmt: skip
+        planes = zip(rings.members, _fitted(values, rings, order), strict=True)
+        energy.append(sum(float(np.sum((_around(rings, rows, order) @ one) ** 2)) for rows, one in planes))
     return int(np.argmax(energy))
 
 
