@@ -96,3 +96,21 @@ def test_leans_of_shapes_lead_to_the_other_height(
     )
     here.hypothesis.features = lambda _: kinds  # type: ignore[method-assign]
     assert HEIGHT.value(float(at_fitting_height(here).z[1])) == pytest.approx(expected)
+
+
+def test_the_other_height_is_not_followed_beyond_what_it_is_worth(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A rival at 1750 beside an explanation at 60 was refitted on both sides of the middle, for ten seconds."""
+    here = lump(HEIGHT.internal(0.02)).refit
+    here = replace(here, objective=1750.0)
+    asked: list[float] = []
+    monkeypatch.setattr(module, "refitted", lambda *task: asked.append(task[2]))
+    monkeypatch.setattr(
+        module, "explained", lambda best, _: Explanation(best.hypothesis.candidates, best, 0.0)
+    )
+    monkeypatch.setattr(
+        module, "replace", lambda one, **more: one if "held" in more else replace(one, **more)
+    )
+    here.hypothesis.features = lambda _: [SimpleNamespace(kind="lean")]  # type: ignore[method-assign]
+    assert at_fitting_height(here, 120.0) is here
+    assert at_fitting_height(here) is here
+    assert asked == [120.0, 1750.0]

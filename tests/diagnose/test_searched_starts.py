@@ -81,7 +81,7 @@ def best_of(monkeypatch: pytest.MonkeyPatch, adequacy: float, worth: float, *, f
         "_through": lambda _: one,
         "of_later_steps": lambda _: [rough],
         "through_wide_valleys": lambda *_: other,
-        "at_fitting_height": lambda best: best,
+        "at_fitting_height": lambda best, _: best,
     }.items():
         monkeypatch.setattr(single_effects, name, value)
     one.hypothesis = None

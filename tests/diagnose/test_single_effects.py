@@ -88,7 +88,7 @@ def tried(monkeypatch: pytest.MonkeyPatch, straight: float, known: float) -> tup
 
     monkeypatch.setattr(module, "price", lambda _: MIDDLING)
     monkeypatch.setattr(module, "is_poor", lambda _: False)
-    monkeypatch.setattr(module, "at_fitting_height", lambda best: best)
+    monkeypatch.setattr(module, "at_fitting_height", lambda best, _: best)
     monkeypatch.setattr(module, "refitted", lambda *_: refit("straight", straight))
     monkeypatch.setattr(module, "_through", lambda _: refit("wide", 30.0))
     monkeypatch.setattr(module, "explained", lambda *_: SimpleNamespace(adequacy_but_one=0.5))
@@ -109,7 +109,7 @@ def sought(
     far_away: Any = SimpleNamespace(hypothesis="far away", z=None)
     monkeypatch.setattr(module, "price", lambda _: price)
     monkeypatch.setattr(module, "is_poor", lambda _: False)
-    monkeypatch.setattr(module, "at_fitting_height", lambda best: best)
+    monkeypatch.setattr(module, "at_fitting_height", lambda best, _: best)
     monkeypatch.setattr(module, "_holds", lambda _: holds)
     monkeypatch.setattr(module, "narrowed_starts", lambda _: [far_away])
     monkeypatch.setattr(module, "_through", lambda _: SimpleNamespace(objective=near))

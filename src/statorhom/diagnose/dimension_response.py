@@ -7,13 +7,14 @@ when that is first asked for. The weights stay as typed: densities follow the vo
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 
 import numpy as np
 from scipy.linalg import eigh
 
 from statorhom.diagnose.masses import stage_densities
+from statorhom.diagnose.side_by_side import side_by_side
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.errors import GeometryError, MassError
@@ -93,7 +94,7 @@ def _slopes(study: StudyModel, stage: StageModel, name: str) -> Mapping[ModeKey,
     try:
         # the Ritz values' own errors, of second order, cancel
         step = STEP * _scaled(study, name)
-        low, high = (_shifts(study, stage, name, sign * step) for sign in (-1, 1))
+        low, high = _on_both_sides(stage, lambda sign: _shifts(study, stage, name, sign * step))
     except (GeometryError, MassError):
         return {}
     return {key: (high[key] - low[key]) / (2 * step) for key in low.keys() & high.keys()}
@@ -105,7 +106,7 @@ def _bends(study: StudyModel, stage: StageModel, name: str) -> Mapping[ModeKey, 
     slopes = _slopes(study, stage, name)
     try:
         far = FAR * _scaled(study, name)
-        low, high = (_solved(study, stage, name, sign * far) for sign in (-1, 1))
+        low, high = _on_both_sides(stage, lambda sign: _solved(study, stage, name, sign * far))
     except (GeometryError, MassError):
         return {}
     found = {}
@@ -114,6 +115,14 @@ def _bends(study: StudyModel, stage: StageModel, name: str) -> Mapping[ModeKey, 
         if max(map(abs, rest)) < JUMP:
             found[key] = (sum(rest) / (2 * far**2), (rest[1] - rest[0]) / (2 * far**3))
     return found
+
+
+def _on_both_sides(
+    stage: StageModel, changes: Callable[[int], dict[ModeKey, float]]
+) -> list[dict[ModeKey, float]]:
+    """Changes of ln f by less and by more of a dimension."""
+    assert stage.reference_keys  # which both need is known to both
+    return side_by_side(changes, (-1, 1))
 
 
 def _solved(study: StudyModel, stage: StageModel, name: str, log_change: float) -> dict[ModeKey, float]:

@@ -26,10 +26,15 @@ def at_likelier_height(explanation: Explanation) -> Explanation:
     return explanation
 
 
-def at_fitting_height(best: Refit) -> Refit:
+def at_fitting_height(best: Refit, worth: float = np.inf) -> Refit:
     """An optimum, or the one with effects on the other side of the middle where the leans of shapes prefer that.
 
     A refit does not get from one to the other: leans that have the wrong sign hardly say anything of where to go.
+
+    Parameters
+    ----------
+    best : the optimum.
+    worth : objective above which another one matters to nobody.
     """
     if not any(f.kind == "lean" for f in best.hypothesis.features(best.z)):
         return best
@@ -37,7 +42,7 @@ def at_fitting_height(best: Refit) -> Refit:
         other = mirrored(explained(best, {}), number)
         if other is None:
             continue
-        there = refitted(replace(best.hypothesis, held=None), other.refit.z, best.objective)
+        there = refitted(replace(best.hypothesis, held=None), other.refit.z, min(best.objective, worth))
         if there is not None and there.objective < best.objective:
             best = there
     return best

@@ -9,7 +9,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 import scipy.sparse as sp
 
-from statorhom.diagnose.side_by_side import side_by_side
+from statorhom.diagnose.side_by_side import side_by_side, workers
 from statorhom.diagnose.small_pairs import small_pairs
 from statorhom.model.affine import AffineModel, Materials, hooke_coefficients
 from statorhom.model.blas_threads import one_blas_thread
@@ -215,7 +215,7 @@ def _solved(
     """Modes (m, j) of all snapshots, per problem."""
     parts = pitch_parts(model.mesh)
     found = side_by_side(
-        lambda pair: modes_of(half_pitches(parts, *pair), spaces, highest_hz, MOST), matrices
+        lambda pair: modes_of(half_pitches(parts, *pair), spaces, highest_hz, MOST, workers()), matrices
     )
     return [np.hstack([pairs[number][1] for pairs in found]) for number in range(len(spaces))]
 

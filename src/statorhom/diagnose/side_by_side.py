@@ -39,6 +39,11 @@ def processes(jobs: int) -> Iterator[None]:
         _PROCESSES.reset(token)
 
 
+def workers() -> int:
+    """How many threads or processes whoever asks may use now; one within parts that are done side by side."""
+    return _PROCESSES.get()
+
+
 def side_by_side(
     function: Callable[[_T], _R], items: Sequence[_T], shared: Sequence[object] = (), least: int = 2
 ) -> list[_R]:

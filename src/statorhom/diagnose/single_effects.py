@@ -187,7 +187,7 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: floa
     elif best is not None and costs_little and not far and best.objective > known:
         # beside a poor model the strongest effects are sought all over the prior in any case
         others = [] if _holds(starts[0]) else _elsewhere(starts[0])
-    return at_fitting_height(min([best, *others], key=_objective)) if best is not None else None
+    return at_fitting_height(min([best, *others], key=_objective), worth) if best is not None else None
 
 
 def _holds(start: Start) -> bool:

@@ -13,6 +13,7 @@ from statorhom.diagnose.joint_basis import JointBasis, joint_basis
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.ring_basis import RingBasis, RingModes, ring_basis
 from statorhom.diagnose.scatter_weights import scatter_weights
+from statorhom.diagnose.side_by_side import workers
 from statorhom.diagnose.supported_slopes import HeldShapes
 from statorhom.diagnose.trained_basis import TrainedBasis, trained_basis
 from statorhom.geometry.stator import StepGeometry
@@ -117,7 +118,9 @@ class StageModel:
     def broken(self) -> SymmetricBasis:
         """Modes of all harmonics at the reference, for what breaks the symmetry."""
         top = self.ring.highest_hz
-        found = symmetric_basis(self.model, self.reference, top, margin=BROKEN_MARGIN, certified=False)
+        found = symmetric_basis(
+            self.model, self.reference, top, margin=BROKEN_MARGIN, certified=False, jobs=workers()
+        )
         return visible(found, self._named.values())
 
     @property
@@ -233,7 +236,7 @@ def mesh_error(setup: StageSetup, ring: RingBasis, materials: Materials, density
     assert isinstance(setup.step, StepGeometry)
     finer = assemble(mesh_step(setup.step, density.refined(FINER)))
     orders = sorted({m.order for t in setup.tests for m in t.modes if m.order is not None} or {2, 3, 4})
-    fine = problem_at(finer, materials).solve(ring.highest_hz, orders, MOST)
+    fine = problem_at(finer, materials).solve(ring.highest_hz, orders, MOST, workers())
     coarse = FreeModes(ring.solve(materials).modes, (), (), ())
     found = converge([1.0, 1 / FINER], [ring.model.mesh.full_dof, finer.mesh.full_dof], [coarse, fine])
     return ModelError.of_factors({c.key: c.factor for c in found})
