@@ -79,6 +79,13 @@ def test_what_leaves_nothing_needs_no_rivals_from_another_valley(monkeypatch: py
     assert found.found == (soft,)
 
 
+def test_what_only_stood_in_for_the_deeper_valley_has_rivals_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A wrong bore at -77 led to a declared model at -65, beside which a suspension at -20 was not looked for."""
+    bore, suspension = explanation("bore", -77.0, 0.5), explanation("suspension", -20.0, 0.5)
+    found = led(monkeypatch, 1e-4, (base(-142.0), [bore]), (base(-65.0), [suspension]))
+    assert found.found == (suspension, bore)
+
+
 def sought_again(monkeypatch: pytest.MonkeyPatch, without_effect: float, adequacy: float = 0.0) -> Any:
     """The declared model from an explanation's constants, whose refit without the effect ends at an objective."""
     monkeypatch.setattr(again, "blank", lambda hypothesis, _: hypothesis)

@@ -77,9 +77,8 @@ def leading_effects(
         deeper = approach.declared_again(leading.base, leading.found)
         if deeper is None:
             break
-        # what leaves nothing to explain needs no rivals from another valley
-        explained = leading.found[0].adequacy_but_one > ADEQUATE
-        leading = _joined(leading, _beside(deeper, candidates, counts, seed, search=not explained))
+        search = not _explains(leading.found[0], deeper)
+        leading = _joined(leading, _beside(deeper, candidates, counts, seed, search=search))
     return leading
 
 
@@ -100,6 +99,14 @@ def _beside(
         # nothing but another name can be found any more
         found = new_names(base.free, discrete, counts)
     return replace(begun, found=tuple(found))
+
+
+def _explains(best: Explanation, deeper: Baseline) -> bool:
+    """Whether an explanation leaves nothing to explain and is better than the deeper valley without any.
+
+    Then it needs no rivals from there; otherwise it only stood in for that valley.
+    """
+    return best.adequacy_but_one > ADEQUATE and best.log_evidence > nothing(deeper.refit).log_evidence
 
 
 def _joined(before: Leading, now: Leading) -> Leading:
