@@ -177,8 +177,7 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: floa
             continue
         for wide in (True, False) if far else (False, True):
             found += _kept(_through(start) if wide else refitted(start.hypothesis, start.z))
-            # on the way through wide valleys constants may leave the valley where they belonged all the time
-            if found and not is_poor(found[-1]) and not cheap and found[-1].objective <= known:
+            if found and not cheap and _will_do(found[-1], known, far=far):
                 break
     best = min(found, key=_objective, default=None)
     others: list[Refit] = []
@@ -188,6 +187,18 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: floa
         # beside a poor model the strongest effects are sought all over the prior in any case
         others = [] if _holds(starts[0]) else _elsewhere(starts[0])
     return at_fitting_height(min([best, *others], key=_objective), worth) if best is not None else None
+
+
+def _will_do(found: Refit, known: float, *, far: bool) -> bool:
+    """Whether an optimum need not be sought the other way, straight or through wide valleys.
+
+    On the way through wide valleys constants may leave the valley where they belonged all the time, and what explains
+    most of a poor model's misfit, but not all, may have done so.
+    """
+    if is_poor(found) or found.objective > known:
+        return False
+    leads = far and found.objective < MOSTLY * known
+    return not leads or explained(found, {}).adequacy_but_one > ADEQUATE
 
 
 def _holds(start: Start) -> bool:
