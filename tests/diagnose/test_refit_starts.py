@@ -121,3 +121,15 @@ def test_rivals_of_the_favourite_are_sought_all_over_the_prior(monkeypatch: pyte
         [start["loose too"]],
         [start["slow"]],
     ]
+
+
+def test_a_softer_strip_is_no_neighbour_of_a_stiffer_one() -> None:
+    """Of a table's splits, which have no sign, both ask for the same; refits followed the stiffer one alone."""
+    ratio = EffectParameter("stiffness_ratio", 0.3, 2.5, 0.02, 12.0, "log", (0.6, 1.6), 1.0)
+    strip: Any = SimpleNamespace(parameters=(ratio, angle()))
+    soft, softer, stiff = (
+        signature(strip, [ratio.internal(value), place], 1.0, 100.0)
+        for value, place in ((0.6, 0.0), (0.5, 0.7), (1.6, 0.0))
+    )
+    assert refit_starts._neighbours(soft, softer)
+    assert not refit_starts._neighbours(soft, stiff)

@@ -79,7 +79,12 @@ def test_of_a_poor_model_cheap_effects_are_followed_through_other_valleys(
 
 
 def tried(
-    monkeypatch: pytest.MonkeyPatch, straight: float, known: float, *, far: bool = False, adequacy: float = 0.5
+    monkeypatch: pytest.MonkeyPatch,
+    straight: float,
+    known: float,
+    *,
+    far: bool = False,
+    adequacy: float = 0.5,
 ) -> tuple[float, list[str]]:
     """Objective of the best refit, and the ways that were taken, where wide valleys lead to 30."""
     ways: list[str] = []
@@ -169,9 +174,34 @@ def test_a_rival_that_explains_much_or_is_all_over_its_region_is_tried_with_loca
         return SimpleNamespace(objective=20.0 if hypothesis.trained else quick, z=None)
 
     monkeypatch.setattr(module, "refitted", refit)
+    monkeypatch.setattr(module, "explained", lambda *_: SimpleNamespace(adequacy=0.5))
     start = Start(Trained(), np.zeros(1))  # type: ignore[arg-type]
     best: Any = module._rival(start, 90.0, 270.0)
     assert best.objective == found
+
+
+@pytest.mark.parametrize(("adequacy", "objective"), [(0.5, 54.0), (0.01, 18.0)])
+def test_a_rival_that_leaves_something_is_refitted_straight_from_its_start_too(
+    monkeypatch: pytest.MonkeyPatch, adequacy: float, objective: float
+) -> None:
+    """Without local fields a strip of half the yoke went through all of it, and a lump got its name."""
+
+    @dataclass(frozen=True)
+    class Trained:
+        trained: bool = True
+        candidates: tuple[Any, ...] = (SimpleNamespace(located=True),)
+
+        def actions(self, _: object) -> list[Any]:
+            return [SimpleNamespace(training="fields", dimensions={})]
+
+    def refit(hypothesis: Trained, z: float, _: float) -> Any:
+        left = {(False, 0.0): 74.0, (True, 1.0): 54.0, (True, 0.0): 18.0}
+        return SimpleNamespace(objective=left[hypothesis.trained, z], z=1.0)
+
+    monkeypatch.setattr(module, "refitted", refit)
+    monkeypatch.setattr(module, "explained", lambda *_: SimpleNamespace(adequacy=adequacy))
+    best: Any = module._rival(Start(Trained(), 0.0), 84.0, 260.0)  # type: ignore[arg-type]
+    assert best.objective == objective
 
 
 def test_a_gross_row_that_one_effect_leaves_is_no_limit_to_what_costs_little() -> None:

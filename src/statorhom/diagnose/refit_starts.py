@@ -27,6 +27,7 @@ POOR = 3.0  # squared residual per feature above which another valley is looked 
 CHEAP, MIDDLING, DEAR = range(3)  # prices
 AMOUNTS = 0.3, 8.0  # that a start's magnitude is multiplied by
 FIRST = 4  # cheap candidates that are followed whatever wide valleys say of them
+ALIKE_CHANGE = 0.9  # of unit changes' product, from which on they are one direction
 PART = 0.2  # of the best one's gain in wide valleys, from which on others are
 # of the favourite's gain, from which on other effects are sought all over the prior too; how many
 ALIKE, RIVALS = 0.5, 3
@@ -154,7 +155,7 @@ def _starts_of(base: Refit, found: Scan, signature: Signature) -> list[Start]:
     own = [s for s in found.signatures if s.candidate.label == signature.candidate.label]
     chosen: list[Signature] = []
     for one in own:
-        if all(abs(float(one.change @ other.change)) < 0.9 for other in chosen):
+        if not any(_neighbours(one, other) for other in chosen):
             chosen.append(one)
     begun = [_begun(base, s) for s in chosen[:PLACES]]
     if not signature.candidate.located or price((signature.gain, begun)) != CHEAP:
@@ -164,6 +165,21 @@ def _starts_of(base: Refit, found: Scan, signature: Signature) -> list[Start]:
     every = [np.r_[base.z, start] for start in scan_starts(base.hypothesis.study, signature.candidate)]
     wider = with_materials_of(begun[0].hypothesis, every)
     return [replace(one, hypothesis=wider) for one in begun]
+
+
+def _neighbours(one: Signature, other: Signature) -> bool:
+    """Whether refits from two starts of a candidate lead to the same optimum.
+
+    Splits of a table have no sign: a stiffer strip parts doublets like a softer one while it is weak.
+    """
+    alike = abs(float(one.change @ other.change)) >= ALIKE_CHANGE
+    return alike and _side(one) == _side(other)
+
+
+def _side(signature: Signature) -> tuple[bool, ...]:
+    """Of what each magnitude has where the effect is absent, whether the start lies above."""
+    pairs = zip(signature.candidate.parameters, signature.start, strict=True)
+    return tuple(p.value(float(z)) > p.absent for p, z in pairs if p.absent is not None and not p.located)
 
 
 def _begun(base: Refit, signature: Signature) -> Start:

@@ -14,6 +14,7 @@ import numpy as np
 
 from statorhom.diagnose.explanations import (
     ADEQUATE,
+    WELL,
     Explanation,
     explained,
     nothing,
@@ -233,13 +234,18 @@ def _rival(start: Start, worth: float, known: float) -> Refit | None:
     """
     hypothesis = start.hypothesis
     actions = hypothesis.actions(start.z)
-    if any(a.training or a.dimensions for a in actions) and not _is_a_field(start, actions):
-        promising = max(worth, PROMISING * known) if np.isfinite(known) else worth
-        quick = refitted(replace(hypothesis, trained=False), start.z, promising)
-        if quick is None or quick.objective > promising:
-            return quick
-        start = replace(start, z=quick.z)
-    return refitted(hypothesis, start.z, worth)
+    if not any(a.training or a.dimensions for a in actions) or _is_a_field(start, actions):
+        return refitted(hypothesis, start.z, worth)
+    promising = max(worth, PROMISING * known) if np.isfinite(known) else worth
+    quick = refitted(replace(hypothesis, trained=False), start.z, promising)
+    if quick is None or quick.objective > promising:
+        return quick
+    found = refitted(hypothesis, quick.z, worth)
+    if found is None or explained(found, {}).adequacy > WELL:
+        return found
+    # without local fields a strip is deeper, or softer, than with them: from there refits may lead elsewhere
+    straight = refitted(hypothesis, start.z, min(worth, found.objective))
+    return min((r for r in (found, straight) if r is not None), key=_objective)
 
 
 def _is_a_field(start: Start, actions: Sequence[Action]) -> bool:
