@@ -118,9 +118,9 @@ def test_lines_beside_their_mates_name_where_rivals_are_far_behind() -> None:
 
 
 def test_an_adequate_declared_model_wants_more_evidence() -> None:
-    adequate = replace(GOOD, nothing_adequacy=0.4, over_nothing=12.0)
+    adequate = replace(GOOD, nothing_adequacy=0.4, over_nothing=7.0)
     assert decide(adequate) == "none"
-    assert decide(replace(adequate, over_nothing=25.0)) == "named"
+    assert decide(replace(adequate, over_nothing=9.0)) == "named"
 
 
 @pytest.mark.parametrize(

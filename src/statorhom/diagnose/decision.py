@@ -14,8 +14,10 @@ from statorhom.diagnose.held_out import HeldOut
 Verdict = Literal["none", "named", "ambiguous", "unknown"]
 MAX_T_P = 0.01
 OVER_NOTHING, OVER_OTHERS = 5.0, 3.0  # of log evidence
-# The same where something else speaks against it: the declared model misses nothing by more than chance, or too few
-# modes show the effect for held-out ones to confirm it.
+# The same where the declared model misses nothing by more than chance: as much and ln of the number of effects, any of
+# which may have found something in the noise.
+OVER_ADEQUATE = 8.0
+# The same where too few modes show the effect for held-out ones to confirm it.
 FAR_OVER_NOTHING, FAR_OVER_OTHERS = 20.0, 5.0
 NEAR_RIVAL = 10.0  # of log evidence: up to which a rival and the best are compared in models of their own
 AS_IT_SHOULD = 0.1  # chance of the declared model's misfit from which on there is nothing to explain
@@ -61,7 +63,7 @@ class Evidence:
     @property
     def detected(self) -> bool:
         """Rule 1, and the first half of rule 2: something is missing."""
-        least = FAR_OVER_NOTHING if self.nothing_adequacy > AS_IT_SHOULD else OVER_NOTHING
+        least = OVER_ADEQUATE if self.nothing_adequacy > AS_IT_SHOULD else OVER_NOTHING
         return not self.by_chance and self.over_nothing > least
 
     @property
