@@ -62,7 +62,9 @@ def sharpened(explanation: Explanation, *, leads: bool = True) -> Explanation:
             break
         explanation, found = found, _sharpened(found)
     found = replace(found, settled=True)
-    if found.adequacy_but_one > WELL or not (leads or _keeps_symmetry(found.refit)):
+    cheap = _keeps_symmetry(found.refit)
+    # where every start needs a model of its own, what is good enough for a name is good enough
+    if found.adequacy_but_one > (WELL if cheap else ADEQUATE) or not (leads or cheap):
         return found
     deeper = at_fitting_height(_on_other_sides(found.refit))
     return found if deeper is found.refit else _sharpened(replace(found, refit=deeper))
