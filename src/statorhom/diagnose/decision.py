@@ -76,13 +76,16 @@ class Evidence:
     def evident(self) -> bool:
         """Whether the evidence alone names it, where the few modes that show it are predicted better than before.
 
-        Lines beside their mates confirm that something parts them, and say little of which of two rivals does.
+        Lines beside their mates confirm that something parts them, and say little of which of two rivals does: that the
+        evidence does.
         """
         unseen = self.held_out
-        if unseen is None or self.over_others <= FAR_OVER_OTHERS:
+        if unseen is None:
             return False
         if unseen.of_lines:
-            return unseen.falls and not unseen.worsens
+            return self.over_others > OVER_OTHERS and unseen.falls and not unseen.worsens
+        if self.over_others <= FAR_OVER_OTHERS:
+            return False
         return unseen.improves and self.over_nothing > FAR_OVER_NOTHING
 
     @property
