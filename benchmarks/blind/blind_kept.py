@@ -1,4 +1,4 @@
-"""Rows of cases that earlier runs have scored, out of the table that they left behind."""
+"""Rows of cases that earlier runs have scored, and cases that could not be concealed, as they left them behind."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from blind_baselines import METHODS
 from statorhom.study.atomic import write_text
 
 TABLE = "cases.csv"
+REFUSED = "refused.txt"
 RATIO = "held-out ratio, "
 
 
@@ -50,3 +51,20 @@ def _row(line: dict[Any, Any]) -> dict[str, Any]:
     words = {k: row.get(k, "") for k in ("named", "best", "effect")}
     answers = {method: known.get(method, "") for method in METHODS}
     return row | words | {"answers": answers, "held_out": ratios}
+
+
+def write_refused(messages: Sequence[str], folder: Path) -> None:
+    """Write why cases cannot be concealed, "case: reason", beside what is known of others."""
+    known = {line.partition(":")[0]: line for line in [*_refusals(folder), *messages]}
+    if known:
+        write_text(folder / REFUSED, "".join(f"{known[name]}\n" for name in sorted(known)))
+
+
+def refused(folder: Path) -> frozenset[str]:
+    """Names of cases that could not be concealed; to find that out again may take a quarter of an hour."""
+    return frozenset(line.partition(":")[0] for line in _refusals(folder))
+
+
+def _refusals(folder: Path) -> list[str]:
+    path = folder / REFUSED
+    return path.read_text(encoding="utf-8").splitlines() if path.exists() else []

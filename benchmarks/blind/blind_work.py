@@ -51,6 +51,16 @@ class Work:
         """What it does not."""
         return self.folder / "truth" / f"{case.name}.json"
 
+    def refusal(self, case: BlindCase) -> Path:
+        """Why it cannot be concealed, which may take a quarter of an hour to find."""
+        return self.folder / "refused" / f"{case.name}.txt"
+
+    def refusals(self) -> list[str]:
+        """Of all cases, as they were said."""
+        return [
+            path.read_text(encoding="utf-8").strip() for path in sorted(self.folder.glob("refused/*.txt"))
+        ]
+
     def run(self, case: BlindCase) -> Path:
         """What it says."""
         return self.folder / "runs" / case.name
@@ -58,9 +68,11 @@ class Work:
 
 def make(work: Work, case: BlindCase) -> str | None:
     """Make a case unless it is there; what went wrong, or None."""
-    folder, truth = work.case(case), work.truth(case)
+    folder, truth, refusal = work.case(case), work.truth(case), work.refusal(case)
     if truth.exists():
         return None
+    if refusal.exists():
+        return refusal.read_text(encoding="utf-8").strip()
     shutil.rmtree(folder, ignore_errors=True)
     template = write_template(work.folder / "templates" / case.name, case.template, case.machine, case.number)
     wishes = [Wish(name, dict(case.given), case.strength) for name in case.effects]
@@ -76,6 +88,7 @@ def make(work: Work, case: BlindCase) -> str | None:
             verdict="ambiguous" if case.group == "ambiguous" else None,
         )
     except StatorhomError as error:
+        write_text(refusal, f"{case.name}: {error}\n")
         return f"{case.name}: {error}"
     content = json.loads((folder / TRUTH).read_text(encoding="utf-8"))
     shutil.rmtree(folder / TRUTH.parent)

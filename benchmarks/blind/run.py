@@ -13,7 +13,7 @@ import argparse
 from pathlib import Path
 
 from blind_cases import blind_cases
-from blind_kept import kept_rows
+from blind_kept import kept_rows, refused, write_refused
 from blind_report import write_report
 from blind_score import scored
 from blind_work import PATIENCE_S, Work, diagnose, each, make
@@ -44,9 +44,11 @@ def main() -> None:
         if options.group in (None, case.group) and options.kind in (None, "tables" if case.tables else "frfs")
     ]
     kept = kept_rows(options.figures) if options.go_on else {}
-    new = [case for case in cases if case.name not in kept]
+    hopeless = refused(options.figures) if options.go_on else frozenset()
+    new = [case for case in cases if case.name not in kept and case.name not in hopeless]
     if not options.score:
         each("made", make, work, new, options.jobs)
+        write_refused(work.refusals(), options.figures)
     if options.make:
         return
     if not options.score:

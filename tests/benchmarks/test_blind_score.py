@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections import Counter
 
+import blind_work
 import numpy as np
 import pytest
 from blind_baselines import METHODS, comparison, held_out_ratios, simpler_answers
 from blind_cases import blind_cases
-from blind_kept import kept_rows
+from blind_kept import kept_rows, refused, write_refused
 from blind_machines import machine, study
 from blind_report import markdown, write_report
 from blind_score import angle_error_deg, compared, interval, magnitude_error, median_interval, summary
 
 from statorhom.conceal.library import NONE, library
+from statorhom.errors import MaterialError
 from statorhom.geometry.stator import stator_geometry
 from statorhom.study.geometry_file import GeometryFile
 from statorhom.study.study_file import StudyFile
@@ -187,6 +189,23 @@ def test_rows_of_earlier_runs_give_the_same_report(tmp_path) -> None:
     assert kept["case-0001"]["held_out"] == named["held_out"]
     assert [row["commit"] for row in kept.values()] == ["0012345", "12e5"]
     assert write_report(list(kept.values()), tmp_path, 2) == first
+
+
+def test_what_cannot_be_concealed_is_known_to_later_runs(tmp_path, monkeypatch: pytest.MonkeyPatch) -> None:
+    tried = []
+
+    def fails(*_: object, **__: object) -> None:
+        tried.append(1)
+        raise MaterialError("no such material")
+
+    monkeypatch.setattr(blind_work, "conceal_study", fails)
+    work, case = blind_work.Work(tmp_path / "work"), blind_cases(1)[0]
+    assert blind_work.make(work, case) == blind_work.make(work, case) == f"{case.name}: no such material"
+    assert len(tried) == 1
+    write_refused(work.refusals(), tmp_path)
+    write_refused(["case-9999: too thin"], tmp_path)
+    assert refused(tmp_path) == {case.name, "case-9999"}
+    assert refused(tmp_path / "elsewhere") == frozenset()
 
 
 def test_without_a_table_nothing_is_kept(tmp_path) -> None:
