@@ -8,7 +8,7 @@ import numpy as np
 
 from statorhom import Study
 from statorhom.command_line.template import write_template
-from statorhom.diagnose.constants import study_constants
+from statorhom.diagnose.constants import held_by_lines, study_constants
 from statorhom.diagnose.features import SCATTER_SD
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.recorded import measured_tests
@@ -32,7 +32,8 @@ def template_hypothesis(
     files, tests = measured_tests(files, folder)
     geometry = stator_geometry(files.geometry, files.geometry_path)
     setup = stage_setup(files, geometry, 0)
-    constants = study_constants([setup], [2, 3], SCATTER_SD, with_losses=with_losses)
+    on_lines = held_by_lines(files, [setup])
+    constants = study_constants([setup], [2, 3], SCATTER_SD, with_losses=with_losses, on_lines=on_lines)
     model = StudyModel(files, geometry, constants, ())
     values = constants.values(np.zeros(len(constants)))
     materials = model.declared(setup, values, model.masses(values, {}))

@@ -42,7 +42,13 @@ def test_slopes_are_those_of_moved_constants(hypothesis: Hypothesis) -> None:
     # residuals beyond the knee bend over a step
     np.testing.assert_allclose(found, expected, rtol=0.02, atol=2e-3 * np.abs(expected).max())
     names = paired.study.constants.names
-    for name in ("stack:lamination.E_p_pa", "stack:mass_kg", "stack:mesh", "scatter 2 re"):
+    for name in (
+        "stack:lamination.E_p_pa",
+        "stack:mass_kg",
+        "stack:mesh",
+        "scatter 2 re",
+        "sinking stack-clamped",
+    ):
         assert np.any(found[:, names.index(name)]), name
 
 
@@ -57,3 +63,15 @@ def test_every_measured_order_has_its_own_mesh_factors(hypothesis: Hypothesis) -
     error = mesh_error(stage.setup, stage.ring, stage.reference, stage.density)
     assert {key[0] for key in error.factors} >= {0, 2, 3}
     assert error.factor((0, 1, 0)) != error.factor((1, 1, 0))
+
+
+def test_lines_that_sink_in_lower_all_modes_of_their_test_together(hypothesis: Hypothesis) -> None:
+    """A clean clamped stack, all of whose modes lay half a percent low, was given another temperature."""
+    z = np.zeros(len(hypothesis))
+    paired = hypothesis.paired(z)
+    deeper = z.copy()
+    deeper[paired.study.constants.names.index("sinking stack-clamped")] = 1.0
+    pairs = list(zip(paired.features(z), paired.features(deeper), strict=True))
+    falls = [a.predicted - b.predicted for a, b in pairs if a.test == "stack-clamped" and not a.lost]
+    assert len(falls) == 3 and all(1e-4 < fall < 0.05 for fall in falls)
+    assert all(a.predicted == b.predicted for a, b in pairs if a.test == "stack-free")

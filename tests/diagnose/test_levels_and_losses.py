@@ -63,7 +63,9 @@ def test_no_loss_factor_pulls_harder_than_its_scatter() -> None:
 def test_springs_with_losses_damp_the_modes_that_they_hold() -> None:
     test = MeasuredTest(0, "held", "clamp", rows(0.0, 0.0))
     shares = {KEYS[0]: np.array([0.6, 0.0]), KEYS[1]: np.array([0.0, 1.0])}
-    reference = SupportedReference(np.zeros(2), shares, np.array([0.4, 0.0]), np.zeros((2, 10)), np.zeros(2))
+    reference = SupportedReference(
+        np.zeros(2), shares, np.array([0.4, 0.0]), np.zeros((2, 10)), np.zeros(2), np.zeros(2)
+    )
     found = supported_losses(test, (0, 1), reference, LOSSES, 0.05)
     assert np.exp(found[0].predicted) == pytest.approx(0.6 * 0.004 + 0.4 * 0.05)
     assert np.exp(found[1].predicted) == pytest.approx(0.006)

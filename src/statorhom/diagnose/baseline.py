@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from statorhom.diagnose.constants import new_constants, study_constants
+from statorhom.diagnose.constants import held_by_lines, new_constants, study_constants
 from statorhom.diagnose.explanations import nothing, widened
 from statorhom.diagnose.features import SCATTER_SD
 from statorhom.diagnose.hypothesis import Hypothesis
@@ -79,7 +79,9 @@ def baseline(
     orders = sorted({m.order for t in tests.values() for m in t.modes if m.order is not None and m.order > 0})
     damped = any(m.loss_factor is not None for t in tests.values() for m in t.modes)
     split = [r for r in orders if r <= MAX_SCATTER_ORDER]
-    constants = study_constants(setups, split, SCATTER_SD, with_losses=damped)
+    constants = study_constants(
+        setups, split, SCATTER_SD, with_losses=damped, on_lines=held_by_lines(files, setups)
+    )
     effects = tuple(d.action for d in declared_effects(files))
     study = StudyModel(files, geometry, constants, (), effects)
     z = np.zeros(len(constants))

@@ -19,6 +19,8 @@ from statorhom.identify.stage_materials import DENSITY
 from statorhom.identify.stage_problem import MESH
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.materials.typical_ranges import Z95
+from statorhom.study.study import StudyFiles
+from statorhom.study.supports import LineSupport
 
 FloatArray = npt.NDArray[np.float64]
 # typical loss factors (5 %, 95 %): bare steel and what is joined to it; wires, dry or in resin
@@ -33,7 +35,8 @@ class Constant:
 
     Parameters
     ----------
-    name : "stage:source.constant", "stage:mass_kg", "stage:mesh", "stage:loss source" or "scatter r re/im".
+    name : "stage:source.constant", "stage:mass_kg", "stage:mesh", "stage:loss source", "sinking test" or
+        "scatter r re/im".
     median, sd : of the normal prior, of the logarithm where `log`.
     lower, upper : limits of the value.
     log : scale of the prior.
@@ -116,7 +119,12 @@ def new_constants(constants: Constants, setup: StageSetup) -> list[int]:
 
 
 def study_constants(
-    setups: Sequence[StageSetup], orders: Sequence[int], scatter_sd: float, *, with_losses: bool = False
+    setups: Sequence[StageSetup],
+    orders: Sequence[int],
+    scatter_sd: float,
+    *,
+    with_losses: bool = False,
+    on_lines: Sequence[str] = (),
 ) -> Constants:
     """Coordinates of all steps.
 
@@ -126,6 +134,8 @@ def study_constants(
     orders : circumferential orders whose doublets manufacturing scatter splits.
     scatter_sd : of the real and of the imaginary part of their relative split.
     with_losses : whether loss factors were measured.
+    on_lines : names of the tests that lines hold (`held_by_lines`): how far these sink in is one unknown for all
+        modes of a test.
     """
     items: list[Constant] = []
     owners: list[dict[str, str]] = []
@@ -156,10 +166,22 @@ def study_constants(
                 damped = {**damped, source: f"{stage}:loss {source}"}
                 items.append(_loss(damped[source], source))
         losses.append({source: damped[source] for source in sources})
+    items += [Constant(sinking_of(test), 0.0, 1.0, -5.0, 5.0) for test in on_lines]
     items += [
         Constant(f"scatter {r} {part}", 0.0, scatter_sd, -1.0, 1.0) for r in orders for part in ("re", "im")
     ]
     return Constants(tuple(items), tuple(owners), tuple(losses))
+
+
+def held_by_lines(files: StudyFiles, setups: Sequence[StageSetup]) -> list[str]:
+    """Names of the steps' tests that lines hold."""
+    tests = [test for setup in setups for test in setup.tests]
+    return [t.name for t in tests if isinstance(files.study.support(t.support), LineSupport)]
+
+
+def sinking_of(test: str) -> str:
+    """Name of the coordinate that tells how far a test's lines sink in, in standard deviations."""
+    return f"sinking {test}"
 
 
 def _weight(stage: str, mass_kg: float, sd_kg: float) -> Constant:

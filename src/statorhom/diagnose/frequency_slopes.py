@@ -7,13 +7,14 @@ alone, a loss factor of a material the damping alone.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import cast
 
 import numpy as np
 import numpy.typing as npt
 
+from statorhom.diagnose.constants import sinking_of
 from statorhom.diagnose.density_features import density_features
 from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.hypothesis import Hypothesis, Told
@@ -50,8 +51,10 @@ def by_frequency(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Featur
     constants = h.study.constants
     values, actions = constants.values(z[: h.constants]), h.actions(z)
     columns: dict[int, FloatArray] = {}
+    columns |= _moved_columns(h, z, told, base, {sinking_of(t.name) for s in h.study.stages for t in s.tests})
     if not h.in_wide_valleys:
-        columns |= _scatter_columns(h, z, told, base) | _loss_columns(h, z, told, base)
+        losses = {name for own in h.study.constants.losses for name in own.values()}
+        columns |= _scatter_columns(h, z, told, base) | _moved_columns(h, z, told, base, losses)
     acting = [
         j
         for j, name in enumerate(constants.names)
@@ -122,8 +125,10 @@ def _scatter_columns(
     return columns
 
 
-def _loss_columns(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Feature]) -> dict[int, FloatArray]:
-    names = {name for own in h.study.constants.losses for name in own.values()}
+def _moved_columns(
+    h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Feature], names: Container[str]
+) -> dict[int, FloatArray]:
+    """Of constants that move no free frequency: predictions stay as they are told."""
     columns: dict[int, FloatArray] = {}
     for j, name in enumerate(h.study.constants.names):
         if name in names:

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.assignment import NEAR, Keys, assigned, missed_cost
+from statorhom.diagnose.constants import sinking_of
 from statorhom.diagnose.counted_planes import counted_at_planes
 from statorhom.diagnose.damping import (
     free_losses,
@@ -242,6 +243,7 @@ class Hypothesis(AnyHypothesis):
             return []
         there = acted_materials(self.study, stage, values, actions, test.name)
         logs, held = predicted_logs(stage, reference, modes, there), cast(Partners, self.held[test.name])
+        logs = logs - values.get(sinking_of(test.name), 0.0) * reference.sinking
         found = supported_features(test, held, logs, reference.own, self.discrepancy)
         losses = self._losses(stage, test, modes, values, actions)
         if losses:

@@ -211,7 +211,7 @@ def constant_rows(base: Refit, best: Refit) -> tuple[ConstantRow, ...]:
     before, after = (np.sqrt(np.diag(r.covariance))[:n] for r in (base, best))
     rows = []
     for k, c in enumerate(base.hypothesis.study.constants.items):
-        if "." not in c.name and not c.name.endswith("mass_kg"):
+        if "." not in c.name.partition(":")[2] and not c.name.endswith("mass_kg"):
             continue
         spread = [
             0.5 * abs(c.value(r.z[k] + s[k]) - c.value(r.z[k] - s[k]))

@@ -33,8 +33,9 @@ from statorhom.study.supports import FaceSupport, LineSupport, SupportKeys
 
 RIGID_PER_M2, RIGID_PER_M3 = 1e14, 1e16  # stiffness of what holds like a rock (N/m², N/m³)
 OWN = 3e-3  # relative model error of a supported frequency: clamps have a form
-# A line sinks into a metal of this modulus by what depends on its width and on the mesh, which leave it this uncertain.
-METAL_PA, SINKING = 2e11, 0.3
+# A line sinks into a metal of this modulus by what depends on its width and on the mesh, which leave it this uncertain:
+# for all modes alike, but for a part.
+METAL_PA, SINKING, UNLIKE = 2e11, 0.3, 0.3
 REACH = 2.0  # of a test's highest mode: how far partners are sought
 # springs whose shapes hold those of all others: part of the rigid stiffness, tangential ratio
 TRAININGS = tuple((part, ratio) for part in (1e-6, 1e-5, 1e-4, 1e-3, 1.0) for ratio in (0.3, 1.2))
@@ -50,7 +51,8 @@ class SupportedReference:
     shares : named free mode → (modes,) share of its strain energy.
     held : (modes,) share of the springs to the ground.
     slopes : (modes, entries) d ln f by the entries of `material_change`.
-    own : (modes,) relative model error of the frequencies.
+    own : (modes,) relative model error of the frequencies, each mode's own.
+    sinking : (modes,) by how much they fall, relatively, where a line sinks in by a standard deviation more.
     radial : (modes, planes, angles) at the test's points, None where no shapes were measured or asked for.
     names : (r, n) of every mode, None where shapes were measured or names not asked for.
     """
@@ -60,6 +62,7 @@ class SupportedReference:
     held: np.ndarray
     slopes: np.ndarray
     own: np.ndarray
+    sinking: np.ndarray
     radial: np.ndarray | None = None
     names: tuple[tuple[int | None, int | None], ...] | None = None
 
@@ -165,26 +168,28 @@ def _solved(
     shares = {key: _share(modes, place) for key, place in free.columns.items()}
     held = _held_share(modes)
     slopes = _shapes(stage, test, keys).slopes(modes, held, stage.reference)
-    own = _own_error(keys, held)
+    sinking = _sinking(keys, held)
+    own = np.hypot(OWN, UNLIKE * sinking)
     if not shapes:
-        return SupportedReference(log_f, shares, held, slopes, own)
+        return SupportedReference(log_f, shares, held, slopes, own, sinking)
     if test.shapes is None:
         named = name_supported(modes, stage.model, stage.reference)
         return SupportedReference(
-            log_f, shares, held, slopes, own, None, tuple((m.order, m.axial) for m in named)
+            log_f, shares, held, slopes, own, sinking, None, tuple((m.order, m.axial) for m in named)
         )
     z, angles = (a.ravel() for a in np.meshgrid(test.shapes.z_m, test.shapes.angles_rad, indexing="ij"))
     motion = modes.motion(surface_points(mesh, angles, z))[:, 0]
     shape = (len(test.shapes.z_m), len(test.shapes.angles_rad), len(modes))
-    return SupportedReference(log_f, shares, held, slopes, own, np.moveaxis(motion.reshape(shape), -1, 0))
+    radial = np.moveaxis(motion.reshape(shape), -1, 0)
+    return SupportedReference(log_f, shares, held, slopes, own, sinking, radial)
 
 
-def _own_error(keys: SupportKeys, held: np.ndarray) -> np.ndarray:
-    """Relative error of the frequencies: by how far they fall where a line yields as if it sank in."""
+def _sinking(keys: SupportKeys, held: np.ndarray) -> np.ndarray:
+    """By how much the frequencies fall, relatively, where a line yields by a standard deviation of how it sinks in."""
     if isinstance(keys, FaceSupport):
-        return np.full(len(held), OWN)
+        return np.zeros(len(held))
     assert keys.normal_stiffness_n_per_m2 is not None
-    return np.asarray(np.hypot(OWN, SINKING * 0.5 * held * keys.normal_stiffness_n_per_m2 / METAL_PA))
+    return np.asarray(SINKING * 0.5 * held * keys.normal_stiffness_n_per_m2 / METAL_PA)
 
 
 def _shapes(stage: StageModel, test: MeasuredTest, keys: SupportKeys) -> HeldShapes:
