@@ -88,8 +88,9 @@ def make(work: Work, case: BlindCase) -> str | None:
             verdict="ambiguous" if case.group == "ambiguous" else None,
         )
     except StatorhomError as error:
-        write_text(refusal, f"{case.name}: {error}\n")
-        return f"{case.name}: {error}"
+        message = f"{case.name}: {error}"
+        write_text(refusal, message + "\n")
+        return message
     content = json.loads((folder / TRUTH).read_text(encoding="utf-8"))
     shutil.rmtree(folder / TRUTH.parent)
     write_text(truth, json.dumps(content | {"blind": asdict(case)}, indent=1) + "\n")

@@ -1,5 +1,6 @@
 """Heights that mirror each other: the same but for the height, and as often mirrored back."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -75,18 +76,10 @@ def test_without_shapes_the_height_stays_open(monkeypatch: pytest.MonkeyPatch) -
     assert not height_is_told(here, 0)
 
 
-@pytest.mark.parametrize(("leans", "expected"), [(True, 0.06), (False, 0.02)])
-def test_leans_of_shapes_lead_to_the_other_height(
-    monkeypatch: pytest.MonkeyPatch, leans: bool, expected: float
+def refits_are(
+    monkeypatch: pytest.MonkeyPatch, here: Refit, refitted: Callable[..., Refit | None], kind: str = "lean"
 ) -> None:
-    """A refit at 16 mm of 97 left 57, of which three leans of the wrong sign were 48."""
-    here = lump(HEIGHT.internal(0.02)).refit
-    kinds = [SimpleNamespace(kind="lean" if leans else "split")]
-
-    def refitted(_: object, z: np.ndarray, worth: float) -> Refit:
-        assert worth == here.objective
-        return replace(here, z=z, objective=abs(HEIGHT.value(float(z[1])) - 0.06))
-
+    """An optimum whose only feature is of some kind, and what refits from elsewhere find."""
     monkeypatch.setattr(module, "refitted", refitted)
     monkeypatch.setattr(
         module, "explained", lambda best, _: Explanation(best.hypothesis.candidates, best, 0.0)
@@ -94,23 +87,29 @@ def test_leans_of_shapes_lead_to_the_other_height(
     monkeypatch.setattr(
         module, "replace", lambda one, **more: one if "held" in more else replace(one, **more)
     )
-    here.hypothesis.features = lambda _: kinds  # type: ignore[method-assign]
+    here.hypothesis.features = lambda _: [SimpleNamespace(kind=kind)]  # type: ignore
+
+
+@pytest.mark.parametrize(("leans", "expected"), [(True, 0.06), (False, 0.02)])
+def test_leans_of_shapes_lead_to_the_other_height(
+    monkeypatch: pytest.MonkeyPatch, leans: bool, expected: float
+) -> None:
+    """A refit at 16 mm of 97 left 57, of which three leans of the wrong sign were 48."""
+    here = lump(HEIGHT.internal(0.02)).refit
+
+    def refitted(_: object, z: np.ndarray, worth: float) -> Refit:
+        assert worth == here.objective
+        return replace(here, z=z, objective=abs(HEIGHT.value(float(z[1])) - 0.06))
+
+    refits_are(monkeypatch, here, refitted, "lean" if leans else "split")
     assert HEIGHT.value(float(at_fitting_height(here).z[1])) == pytest.approx(expected)
 
 
 def test_the_other_height_is_not_followed_beyond_what_it_is_worth(monkeypatch: pytest.MonkeyPatch) -> None:
     """A rival at 1750 beside an explanation at 60 was refitted on both sides of the middle, for ten seconds."""
-    here = lump(HEIGHT.internal(0.02)).refit
-    here = replace(here, objective=1750.0)
+    here = replace(lump(HEIGHT.internal(0.02)).refit, objective=1750.0)
     asked: list[float] = []
-    monkeypatch.setattr(module, "refitted", lambda *task: asked.append(task[2]))
-    monkeypatch.setattr(
-        module, "explained", lambda best, _: Explanation(best.hypothesis.candidates, best, 0.0)
-    )
-    monkeypatch.setattr(
-        module, "replace", lambda one, **more: one if "held" in more else replace(one, **more)
-    )
-    here.hypothesis.features = lambda _: [SimpleNamespace(kind="lean")]  # type: ignore[method-assign]
+    refits_are(monkeypatch, here, lambda *task: asked.append(task[2]))
     assert at_fitting_height(here, 120.0) is here
     assert at_fitting_height(here) is here
     assert asked == [120.0, 1750.0]

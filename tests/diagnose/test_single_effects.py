@@ -154,6 +154,21 @@ def test_an_effect_that_leaves_more_than_its_absence_is_sought_all_over_the_prio
     assert sought(monkeypatch, 450.0, holds=True) == 450.0
 
 
+@dataclass(frozen=True)
+class Trained:
+    """A hypothesis whose effect asks for local fields."""
+
+    candidates: tuple[Any, ...]
+    trained: bool = True
+
+    def actions(self, _: object) -> list[Any]:
+        return [SimpleNamespace(training="fields", dimensions={})]
+
+
+def trained_start(z: object, *, located: bool) -> Start:
+    return Start(Trained((SimpleNamespace(located=located),)), z)  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize(
     ("quick", "located", "found"), [(150.0, True, 20.0), (170.0, True, 170.0), (240.0, False, 20.0)]
 )
@@ -162,21 +177,12 @@ def test_a_rival_that_explains_much_or_is_all_over_its_region_is_tried_with_loca
 ) -> None:
     """Of two graded stacks one left 150 without them beside 84 of a wrong name, and 15 with them, one 243 and 31."""
 
-    @dataclass(frozen=True)
-    class Trained:
-        trained: bool = True
-        candidates: tuple[Any, ...] = (SimpleNamespace(located=located),)
-
-        def actions(self, _: object) -> list[Any]:
-            return [SimpleNamespace(training="fields", dimensions={})]
-
     def refit(hypothesis: Trained, *_: object) -> Any:
         return SimpleNamespace(objective=20.0 if hypothesis.trained else quick, z=None)
 
     monkeypatch.setattr(module, "refitted", refit)
     monkeypatch.setattr(module, "explained", lambda *_: SimpleNamespace(adequacy=0.5))
-    start = Start(Trained(), np.zeros(1))  # type: ignore[arg-type]
-    best: Any = module._rival(start, 90.0, 270.0)
+    best: Any = module._rival(trained_start(np.zeros(1), located=located), 90.0, 270.0)
     assert best.objective == found
 
 
@@ -186,21 +192,13 @@ def test_a_rival_that_leaves_something_is_refitted_straight_from_its_start_too(
 ) -> None:
     """Without local fields a strip of half the yoke went through all of it, and a lump got its name."""
 
-    @dataclass(frozen=True)
-    class Trained:
-        trained: bool = True
-        candidates: tuple[Any, ...] = (SimpleNamespace(located=True),)
-
-        def actions(self, _: object) -> list[Any]:
-            return [SimpleNamespace(training="fields", dimensions={})]
-
     def refit(hypothesis: Trained, z: float, _: float) -> Any:
         left = {(False, 0.0): 74.0, (True, 1.0): 54.0, (True, 0.0): 18.0}
         return SimpleNamespace(objective=left[hypothesis.trained, z], z=1.0)
 
     monkeypatch.setattr(module, "refitted", refit)
     monkeypatch.setattr(module, "explained", lambda *_: SimpleNamespace(adequacy=adequacy))
-    best: Any = module._rival(Start(Trained(), 0.0), 84.0, 260.0)  # type: ignore[arg-type]
+    best: Any = module._rival(trained_start(0.0, located=True), 84.0, 260.0)
     assert best.objective == objective
 
 

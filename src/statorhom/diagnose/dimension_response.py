@@ -121,8 +121,7 @@ def _on_both_sides(
     stage: StageModel, changes: Callable[[int], dict[ModeKey, float]]
 ) -> list[dict[ModeKey, float]]:
     """Changes of ln f by less and by more of a dimension."""
-    assert stage.reference_keys  # which both need is known to both
-    return side_by_side(changes, (-1, 1))
+    return side_by_side(changes, (-1, 1), list(stage.reference_keys))
 
 
 def _solved(study: StudyModel, stage: StageModel, name: str, log_change: float) -> dict[ModeKey, float]:

@@ -51,10 +51,11 @@ def by_frequency(h: Hypothesis, z: FloatArray, told: Told, base: Sequence[Featur
     constants = h.study.constants
     values, actions = constants.values(z[: h.constants]), h.actions(z)
     columns: dict[int, FloatArray] = {}
-    columns |= _moved_columns(h, z, told, base, {sinking_of(t.name) for s in h.study.stages for t in s.tests})
+    moved = {sinking_of(t.name) for s in h.study.stages for t in s.tests}
     if not h.in_wide_valleys:
-        losses = {name for own in h.study.constants.losses for name in own.values()}
-        columns |= _scatter_columns(h, z, told, base) | _moved_columns(h, z, told, base, losses)
+        moved |= {name for own in h.study.constants.losses for name in own.values()}
+        columns |= _scatter_columns(h, z, told, base)
+    columns |= _moved_columns(h, z, told, base, moved)
     acting = [
         j
         for j, name in enumerate(constants.names)
