@@ -26,7 +26,7 @@ def shown(basis, changes, count=6):
     """Frequencies of the modes that move the surface most."""
     modes = solve_broken(basis, changes, tolerance=None)
     held = modes.coupled.statics
-    motion = np.hstack([held.rows, held.flexibility]) @ modes.coordinates
+    motion = held.answers.motion @ modes.coordinates
     most = np.argsort(-np.sum(motion**2, axis=0))[:count]
     return np.sort(modes.frequencies_hz[most])
 

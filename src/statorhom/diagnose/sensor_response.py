@@ -126,7 +126,7 @@ def _by_modes(stage: StageModel, z: float, mass_kg: float) -> dict[ModeKey, floa
     """The same of a mass that couples modes and nothing else; without the modes that it mixes up."""
     trained: TrainedBasis = stage.trained(())
     mesh, values = trained.basis.mesh, trained.basis.values
-    motion = statics(trained.basis, [lump(mesh, _angle(mesh.slots), z, 1.0)]).rows
+    motion = statics(trained.basis, [lump(mesh, _angle(mesh.slots), z, 1.0)]).answers.rows
     added = np.eye(len(values)) + mass_kg * motion.T @ motion
     eigenvalues, x = eigh(np.diag(values), added)
     shares = added @ x

@@ -238,7 +238,7 @@ def _share(modes: BrokenModes, place: Columns) -> np.ndarray:
 def _held_share(modes: BrokenModes) -> np.ndarray:
     """Share of the springs to the ground in the potential energy of every mode."""
     own = modes.coupled.statics
-    motion = np.hstack([own.rows, own.flexibility]) @ modes.coordinates
+    motion = own.answers.motion @ modes.coordinates
     energy = np.sum(motion * (own.stiffness @ motion), axis=0)
     return np.asarray(np.clip(energy / modes.eigenvalues, 0.0, 1.0))
 

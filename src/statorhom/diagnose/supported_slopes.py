@@ -14,7 +14,7 @@ import numpy as np
 from statorhom.diagnose.ring_basis import RingProblem, affine_terms, grown
 from statorhom.model.affine import AffineModel, Materials, hooke_coefficients
 from statorhom.model.blas_threads import one_blas_thread
-from statorhom.model.broken.basis import ProblemBasis
+from statorhom.model.broken.problem_basis import ProblemBasis
 from statorhom.model.broken.solve import BrokenModes
 from statorhom.model.radial_profile import radial_profile
 

@@ -1,15 +1,13 @@
 """The symmetric stator's modes of all harmonics, as the basis in which its broken symmetry is solved.
 
 Beside the modes a problem may hold further vectors (`statorhom.model.broken.enrich`); together they are Ritz vectors
-of the symmetric stator. A few random probes ζ with covariance (K' + σM)⁻¹ go with them: for any residual r the
-mean of (ζᵀr)² is rᵀ(K' + σM)⁻¹r, so that the error of a solution is known without a solve. K' is the stiffness of the
-symmetric stator that is nowhere stiffer than any broken one (`statorhom.model.broken.soften`).
+of the symmetric stator.
 """
 
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -19,76 +17,27 @@ import scipy.sparse as sp
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import AffineModel, Materials
-from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.broken.grams import GramCache
 from statorhom.model.broken.pieces import Pieces
+from statorhom.model.broken.problem_basis import ProblemBasis, solved_problems
 from statorhom.model.broken.sector import Sector, surface_dofs
+from statorhom.model.broken.surface_answers import SurfaceAnswers, surface_answers
 from statorhom.model.broken.waves import Waves
 from statorhom.model.cyclic.half_pitch import half_pitch
-from statorhom.model.cyclic.modes import modes_of
 from statorhom.model.cyclic.problem import CyclicProblem, Shifted
 from statorhom.model.eigen import SHIFT
 from statorhom.model.harmonic import all_orders, spaces_of
 from statorhom.model.pitch_parts import pitch_parts
 
 MARGIN = 2.0  # modes reach this much higher than the band
-PROBES = 8  # per problem
 OF_VECTORS = (
     "waves",
     "probes",
-    "surface_motion",
+    "surface",
     "places",
     "values",
     "probed",
 )  # what a basis knows of its vectors alone
-
-
-@dataclass(frozen=True, eq=False)
-class ProblemBasis:
-    """Basis of one harmonic problem.
-
-    Parameters
-    ----------
-    sector : the problem.
-    soft : the same problem of the softest symmetric stator.
-    values : (w,) Ritz values of the vectors (rad²/s²).
-    vectors : (m, w) coordinates of unit modal mass.
-    elastic, inertial : (m, w) K and M times the vectors.
-    probes : (m, t) random vectors with covariance (K' + σM)⁻¹.
-    """
-
-    sector: Sector
-    soft: Sector
-    values: np.ndarray
-    vectors: np.ndarray
-    elastic: np.ndarray
-    inertial: np.ndarray
-    probes: np.ndarray
-
-    def __post_init__(self) -> None:
-        for array in (self.values, self.vectors, self.elastic, self.inertial, self.probes):
-            array.setflags(write=False)
-
-    def lowest(self, count: int) -> ProblemBasis:
-        """The first vectors only."""
-        return self.chosen(slice(count))
-
-    def chosen(self, which: slice | np.ndarray) -> ProblemBasis:
-        """Some of the vectors, by a slice or by a mask."""
-        arrays = {
-            name: getattr(self, name)[..., which] for name in ("values", "vectors", "elastic", "inertial")
-        }
-        return replace(self, **arrays)
-
-    @cached_property
-    def surface_products(self) -> tuple[np.ndarray, np.ndarray]:
-        """Mass products (w, s) and (t, s) of vectors and probes with the surface's static responses."""
-        return self.vectors.T @ self.sector.inertial, self.probes.T @ self.sector.inertial
-
-    @cached_property
-    def surface_parts(self) -> tuple[np.ndarray, np.ndarray]:
-        """Loaded coordinates (s, w) and (s, t) of vectors and probes."""
-        return self.vectors[self.sector.loaded], self.probes[self.sector.loaded]
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,15 +81,9 @@ class SymmetricBasis:
         return self._waves([p.probes for p in self.problems])
 
     @cached_property
-    def surface_motion(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Displacements of the surface by the loaded coordinates of all problems, one problem after the other.
-
-        Real and imaginary part (d, s) and the harmonic (s,) of every coordinate.
-        """
-        sectors = [p.sector for p in self.problems]
-        moved = np.hstack([s.moved for s in sectors])
-        order = np.repeat([s.space.order for s in sectors], [len(s.loaded) for s in sectors])
-        return np.ascontiguousarray(moved.real), np.ascontiguousarray(moved.imag), order
+    def surface(self) -> SurfaceAnswers:
+        """How all problems answer loads on the outer surface."""
+        return surface_answers(self.problems, self.mesh.slots)
 
     @cached_property
     def values(self) -> np.ndarray:
@@ -245,25 +188,3 @@ def symmetric_basis(
     sectors = [Sector(CyclicProblem(space, shifted[space.axial]), surface) for space in spaces]
     problems = solved_problems(sectors, margin * highest_hz, certified=certified, jobs=jobs)
     return SymmetricBasis(model.mesh, problems, highest_hz, margin * highest_hz, shift)
-
-
-def solved_problems(
-    sectors: Sequence[Sector], highest_hz: float, *, certified: bool = True, jobs: int = 1
-) -> tuple[ProblemBasis, ...]:
-    """All modes of problems up to a frequency, and their probes where they are to be certified."""
-    pitches = {id(s.problem.shifted): s.problem.shifted.pitch for s in sectors}
-    pairs = modes_of(tuple(pitches.values()), [s.space for s in sectors], highest_hz, jobs=jobs)
-    found = []
-    with one_blas_thread():
-        for sector, (values, vectors) in zip(sectors, pairs, strict=True):
-            vectors = vectors / np.sqrt(sector.space.copies)
-            images = sector.K @ vectors, sector.M @ vectors
-            drawn = probes(sector.problem) if certified else np.empty((sector.space.size, 0))
-            found.append(ProblemBasis(sector, sector, values, vectors, *images, drawn))
-    return tuple(found)
-
-
-def probes(problem: CyclicProblem) -> np.ndarray:
-    """Random vectors (m, t) with covariance (K + σM)⁻¹."""
-    weights = np.random.default_rng(problem.space.order).standard_normal((problem.space.size, PROBES))
-    return problem.sampled(weights)

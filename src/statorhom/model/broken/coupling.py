@@ -39,7 +39,8 @@ def couple(basis: SymmetricBasis, changes: Sequence[Change]) -> Coupled:
     """Assemble what the changes couple."""
     own = statics(basis, [c for c in changes if isinstance(c, Attachment)])
     pieces = tuple(c for c in changes if isinstance(c, PieceChange))
-    sigma, rows, products, G, H = basis.shift, own.rows, own.products, own.flexibility, own.inertia
+    sigma, known = basis.shift, own.answers
+    rows, products, G, H = known.rows, known.products, known.flexibility, known.inertia
     mixed = rows.T - sigma * products
     still = G - sigma * H
     values = basis.values
@@ -49,9 +50,9 @@ def couple(basis: SymmetricBasis, changes: Sequence[Change]) -> Coupled:
         still = still + products.T @ (basis.added[:, None] * products)
     K = np.block([[np.diag(values), mixed], [mixed.T, still]])
     M = np.block([[np.eye(len(basis.values)), products], [products.T, H]])
-    (zK, zM), (zL, zY) = basis.probed, own.probed
+    (zK, zM), (zL, zY) = basis.probed, known.probed
     probe_stiffness, probe_mass = np.hstack([zK, zL - sigma * zY]), np.hstack([zM, zY])
-    motion = np.hstack([rows, G])
+    motion = known.motion
     K += motion.T @ own.stiffness @ motion
     M += motion.T @ own.mass @ motion
     probe_stiffness += zL @ (own.stiffness @ motion)

@@ -12,9 +12,10 @@ from dataclasses import replace
 import numpy as np
 from scipy.linalg import eigh
 
-from statorhom.model.broken.basis import ProblemBasis, SymmetricBasis
+from statorhom.model.broken.basis import SymmetricBasis
 from statorhom.model.broken.coupling import Coupled
 from statorhom.model.broken.pieces import Pieces
+from statorhom.model.broken.problem_basis import ProblemBasis
 
 DROP = 1e-14  # squared part of a vector outside the basis below which it is rounding
 
@@ -82,7 +83,7 @@ def _residual(
         # K Y = Lᵀ - σ M Y
         load = own.loads[number][sine]
         residual -= (sector.inertial @ (load @ f)) * (sector.shift + values)
-        motion = own.rows @ q + own.flexibility @ f
+        motion = own.answers.motion @ x
         reaction = own.stiffness @ motion - (own.mass @ motion) * values
         residual[sector.loaded] += load @ (f + reaction)
     return np.asarray(residual)

@@ -14,9 +14,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from statorhom.model.broken.basis import ProblemBasis, SymmetricBasis
+from statorhom.model.broken.basis import SymmetricBasis
 from statorhom.model.broken.change import Change
 from statorhom.model.broken.enrich import extended
+from statorhom.model.broken.problem_basis import ProblemBasis
 from statorhom.model.broken.solve import TOLERANCE, BrokenModes, solve_broken
 
 # Parts of the tolerance: what the trainings are solved to, and what the small basis keeps, so that places between

@@ -68,6 +68,15 @@ class Sector:
         """Coordinates that move the surface."""
         return np.unique(self.trace.indices)
 
+    @property
+    def surface_trace(self) -> sp.csr_array:
+        """(s, 3 n) complex sparse: displacements of the half pitch by the loaded coordinates, transposed."""
+        moved = sp.coo_array(self.trace[:, self.loaded].T)
+        size = self.space.real.shape[0]
+        return sp.csr_array(
+            (moved.data, (moved.row, self.surface[moved.col])), shape=(len(self.loaded), size)
+        )
+
     @cached_property
     def moved(self) -> np.ndarray:
         """(d, s) complex: displacements of the surface by these coordinates."""

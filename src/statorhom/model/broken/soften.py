@@ -12,10 +12,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from statorhom.model.broken.basis import ProblemBasis, SymmetricBasis, solved_problems
+from statorhom.model.broken.basis import SymmetricBasis
 from statorhom.model.broken.change import PieceChange
 from statorhom.model.broken.enrich import extended
 from statorhom.model.broken.pieces import Pieces
+from statorhom.model.broken.problem_basis import ProblemBasis, solved_problems
 from statorhom.model.cyclic.problem import CyclicProblem, Shifted
 
 SLIGHT = 0.3  # a piece that keeps more than 1 - this of the stiffness it has in the basis needs no new probes

@@ -11,11 +11,12 @@ from scipy.stats import chi2
 
 from statorhom.errors import SolverError
 from statorhom.model.blas_threads import one_blas_thread
-from statorhom.model.broken.basis import PROBES, SymmetricBasis
+from statorhom.model.broken.basis import SymmetricBasis
 from statorhom.model.broken.change import Change, PieceChange
 from statorhom.model.broken.coupling import Coupled, couple
 from statorhom.model.broken.dense_modes import lowest_coupled
 from statorhom.model.broken.enrich import enriched
+from statorhom.model.broken.problem_basis import PROBES
 from statorhom.model.broken.soften import softened
 from statorhom.model.eigen import frequency_hz
 from statorhom.model.stator_mode import RIGID_HZ
@@ -76,7 +77,7 @@ class BrokenModes:
         """
         size, statics = len(self.basis.values), self.coupled.statics
         modal = self.coordinates[:size]
-        return modal if len(statics) == 0 else modal + statics.products @ self.coordinates[size:]
+        return modal if len(statics) == 0 else modal + statics.answers.products @ self.coordinates[size:]
 
     def motion(self, points: SurfacePoints) -> np.ndarray:
         """Motion (u_r, u_θ, u_z) of all modes at points of the outer surface, (p, 3, modes) in 1/√kg.
@@ -220,9 +221,9 @@ def _orthogonal(coupled: Coupled, size: int) -> np.ndarray | None:
     statics = coupled.statics
     if len(statics) == 0:
         return None
-    inside = statics.products
-    scale = 1 / np.sqrt(np.diag(statics.inertia))
-    outside = (statics.inertia - inside.T @ inside) * scale * scale[:, None]
+    inside, inertia = statics.answers.products, statics.answers.inertia
+    scale = 1 / np.sqrt(np.diag(inertia))
+    outside = (inertia - inside.T @ inside) * scale * scale[:, None]
     values, vectors = np.linalg.eigh(outside)
     keep = values > DEPENDENT
     columns = scale[:, None] * vectors[:, keep] / np.sqrt(values[keep])

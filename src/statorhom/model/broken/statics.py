@@ -7,23 +7,21 @@ solved once per problem (`statorhom.model.broken.sector`).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from scipy.linalg import block_diag
 
-from statorhom.model.broken.basis import ProblemBasis, SymmetricBasis
+from statorhom.model.broken.basis import SymmetricBasis
 from statorhom.model.broken.change import Attachment
-from statorhom.model.broken.sector import Sector
+from statorhom.model.broken.surface_answers import Answers
 from statorhom.model.broken.waves import Waves
 
-_MIRROR = np.array([1.0, -1.0, 1.0])
 DEPENDENT = 1e-24  # squared part of the largest stiffness or mass below which a motion carries neither
 
 KEPT = 8  # places, and sets of them, whose responses are kept
-OF_LOADS = ("rows", "products", "probed", "flexibility", "inertia")
 
 Loads = Mapping[bool, np.ndarray]
 
@@ -36,13 +34,13 @@ class Statics:
     ----------
     basis : of the symmetric stator.
     stiffness, mass : (a, a) of the attachments between the motions.
-    loads : per problem: family → (s, a) unit loads Lᵀ on the coordinates that move the surface.
+    loaded : (problems, s, 2, a) unit loads Lᵀ, as `SurfaceAnswers.loads` has them.
     """
 
     basis: SymmetricBasis
     stiffness: np.ndarray
     mass: np.ndarray
-    loads: tuple[Loads, ...]
+    loaded: np.ndarray
 
     def __len__(self) -> int:
         return len(self.stiffness)
@@ -50,39 +48,26 @@ class Statics:
     def with_(self, stiffness: np.ndarray, mass: np.ndarray) -> Statics:
         """The same motions with other springs and masses; what depends on the motions alone is kept."""
         found = replace(self, stiffness=stiffness, mass=mass)
-        found.__dict__.update({name: self.__dict__[name] for name in OF_LOADS if name in self.__dict__})
+        found.__dict__.update({name: self.__dict__[name] for name in ("answers",) if name in self.__dict__})
         return found
 
     @cached_property
-    def rows(self) -> np.ndarray:
-        """LW of the basis, (a, coordinates)."""
-        return self._stacked(lambda p: p.surface_parts[0].T).T
+    def answers(self) -> Answers:
+        """To the unit loads."""
+        if len(self) == 0:  # the surface's responses would be solved for nothing
+            basis, none = len(self.basis.values), np.zeros((0, 0))
+            probes = np.zeros((len(self.basis.probes), 0))
+            return Answers(np.zeros((0, basis)), np.zeros((basis, 0)), (probes, probes), none, none)
+        return self.basis.surface.answers(self.loaded)
 
     @cached_property
-    def products(self) -> np.ndarray:
-        """WᵀMY, (coordinates, a)."""
-        if len(self) == 0:
-            return np.zeros(
-                (len(self.basis.values), 0)
-            )  # the surface's responses would be solved for nothing
-        return self._stacked(lambda p: p.surface_products[0])
-
-    @cached_property
-    def probed(self) -> tuple[np.ndarray, np.ndarray]:
-        """ζᵀLᵀ and ζᵀMY of the probes, (probes, a) each."""
-        if len(self) == 0:
-            return np.zeros((len(self.basis.probes), 0)), np.zeros((len(self.basis.probes), 0))
-        return self._stacked(lambda p: p.surface_parts[1].T), self._stacked(lambda p: p.surface_products[1])
-
-    @cached_property
-    def flexibility(self) -> np.ndarray:
-        """LY, (a, a)."""
-        return self._summed(lambda s: s.flexibility)
-
-    @cached_property
-    def inertia(self) -> np.ndarray:
-        """YᵀMY, (a, a)."""
-        return self._summed(lambda s: s.inertia)
+    def loads(self) -> tuple[Loads, ...]:
+        """Per problem: family → (s, a) unit loads on the coordinates that move the surface."""
+        sectors = [p.sector for p in self.basis.problems]
+        return tuple(
+            {sine: own[: len(sector.loaded), int(sine)] for sine in sector.families}
+            for own, sector in zip(self.loaded, sectors, strict=True)
+        )
 
     @cached_property
     def responses(self) -> tuple[Loads, ...]:
@@ -105,24 +90,6 @@ class Statics:
             np.hstack(shapes), np.repeat(order, count), chosen[False], chosen[True], self.basis.mesh.slots
         )
         return columns, np.tile(np.eye(count), (len(shapes), 1))
-
-    def _stacked(self, products: Callable[[ProblemBasis], np.ndarray]) -> np.ndarray:
-        """Products (…, s) of every problem's surface times the loads, as rows of all coordinates."""
-        blocks: dict[bool, list[np.ndarray]] = {False: [], True: []}
-        for problem, loads in zip(self.basis.problems, self.loads, strict=True):
-            for sine, load in loads.items():
-                blocks[sine].append(products(problem) @ load)
-        return np.vstack([*blocks[False], *blocks[True]])
-
-    def _summed(self, products: Callable[[Sector], np.ndarray]) -> np.ndarray:
-        total = np.zeros((len(self), len(self)))
-        for problem, loads in zip(self.basis.problems, self.loads, strict=True):
-            both = np.hstack(list(loads.values()))
-            images = products(problem.sector) @ both
-            for first in range(0, both.shape[1], max(len(self), 1)):
-                part = slice(first, first + len(self))
-                total += both[:, part].T @ images[:, part]
-        return (total + total.T) / 2
 
 
 def statics(basis: SymmetricBasis, attachments: Sequence[Attachment]) -> Statics:
@@ -157,7 +124,7 @@ def _carrying(stiffness: np.ndarray, mass: np.ndarray) -> np.ndarray | None:
 
 
 def _motion(basis: SymmetricBasis, a: Attachment) -> np.ndarray:
-    """Displacements (motions, s) of an attachment's motions by the loaded coordinates of all problems, complex.
+    """Displacements (S, motions) of an attachment's motions by the loaded coordinates of all problems, complex.
 
     Those of the latest places are kept: a support's springs stay where they are when a lump moves.
     """
@@ -165,7 +132,7 @@ def _motion(basis: SymmetricBasis, a: Attachment) -> np.ndarray:
     if known is not None:
         basis.kept_motions.move_to_end((id(a.points), id(a.rows)))
         return np.asarray(known[1])
-    found = _moved(basis, a)
+    found = basis.surface.motion(a)
     # the places are kept too, so that their ids stay theirs
     basis.kept_motions[id(a.points), id(a.rows)] = ((a.points, a.rows), found)
     if len(basis.kept_motions) > KEPT:
@@ -173,32 +140,8 @@ def _motion(basis: SymmetricBasis, a: Attachment) -> np.ndarray:
     return found
 
 
-def _moved(basis: SymmetricBasis, a: Attachment) -> np.ndarray:
-    real, imaginary, order = basis.surface_motion
-    surface = basis.problems[0].sector.surface
-    local = a.points.matrix[:, surface].toarray()
-    total = np.zeros((len(a.rows), len(order)), dtype=complex)
-    places = {(int(k), bool(m)) for k, m in zip(a.points.pitch, a.points.mirrored, strict=True)}
-    for pitch, mirrored in sorted(places):
-        of = np.flatnonzero((a.points.pitch == pitch) & (a.points.mirrored == mirrored))
-        rows = (3 * of[:, None] + np.arange(3)).ravel()
-        sign = np.tile(_MIRROR, len(of))[:, None] if mirrored else 1.0
-        here = a.rows[:, rows] @ (sign * local[rows])
-        used = np.flatnonzero(np.any(here, axis=0))
-        turn = np.exp(2j * np.pi / basis.mesh.slots * (order * pitch % basis.mesh.slots))
-        other = here[:, used] @ imaginary[used]
-        total += (here[:, used] @ real[used] + (-1j if mirrored else 1j) * other) * turn
-    return total
-
-
-def _loads(basis: SymmetricBasis, attachments: Sequence[Attachment], used: np.ndarray) -> tuple[Loads, ...]:
-    """Unit loads on the motions; the motion's real part belongs to cosine, its imaginary part to sine shapes."""
-    empty = np.zeros((0, len(basis.surface_motion[2])), dtype=complex)
-    rows = (used.T @ np.vstack([empty, *(_motion(basis, a) for a in attachments)])).T
-    both = {False: np.ascontiguousarray(rows.real), True: np.ascontiguousarray(rows.imag)}
-    found, first = [], 0
-    for problem in basis.problems:
-        last = first + len(problem.sector.loaded)
-        found.append({sine: both[sine][first:last] for sine in problem.sector.families})
-        first = last
-    return tuple(found)
+def _loads(basis: SymmetricBasis, attachments: Sequence[Attachment], used: np.ndarray) -> np.ndarray:
+    """Unit loads (problems, s, 2, a) on combinations of the motions."""
+    if not attachments:
+        return np.zeros((len(basis.problems), 0, 2, 0))
+    return basis.surface.loads(np.hstack([_motion(basis, a) for a in attachments]) @ used)

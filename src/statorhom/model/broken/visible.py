@@ -11,8 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from statorhom.model.broken.basis import ProblemBasis, SymmetricBasis
+from statorhom.model.broken.basis import SymmetricBasis
 from statorhom.model.broken.grams import GramCache
+from statorhom.model.broken.problem_basis import ProblemBasis
 from statorhom.model.harmonic import Harmonic
 
 # Of the largest surface motion of a mode. Clamped modes of a wound stator with 1 300 modes in the band, of which 720
