@@ -50,3 +50,18 @@ def test_a_line_without_a_partner_says_less_where_doublets_are_torn_apart(
     test = MeasuredTest(0, "t", "free", (*LINES, stray), True, (MeasuredSplit("0", "1", size + 0j, 1e-4),))
     (lost,) = free_features(test, (stray,), (None,), {}, {}, ModelError())
     assert least <= lost.measured <= most
+
+
+def test_lines_of_a_torn_doublet_stand_on_either_side_of_another_ones() -> None:
+    """Lines at 8783 and 9351 Hz of a doublet about 9080 Hz; another one has one line at 9090 Hz."""
+    outer, inner = (4, 1, 0), (4, 1, 1)
+    predicted = {
+        key: PredictedMode(
+            key, StatorMode(f, 4, 1, "radial", 1.0, 2, 0, 0), float(np.log(f)), split + 0j, 1e-3
+        )
+        for key, f, split in ((outer, 9090.0, 0.13), (inner, 9050.0, 0.003))
+    }
+    modes = tuple(
+        MeasuredMode(i, str(i), f, order=4, axial=1) for i, f in enumerate((8783.0, 9090.0, 9351.0))
+    )
+    assert assigned(MeasuredTest(0, "t", "free", modes, False), modes, predicted) == (outer, inner, outer)

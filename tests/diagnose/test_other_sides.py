@@ -72,7 +72,7 @@ def test_what_breaks_the_symmetry_is_solved_on_the_other_side(monkeypatch: pytes
         return broken(z, 20.0 if z[1] > 0 else 90.0 + worth)
 
     monkeypatch.setattr(sharper, "evaluated", lambda _, z: broken(z, 300.0))
-    monkeypatch.setattr(sharper, "_own_model", own_model)
+    monkeypatch.setattr(sharper, "in_its_own_model", own_model)
     monkeypatch.setattr(sharper, "refitted", refitted)
     assert sharper._on_other_sides(broken(np.array([0.2, -0.7, 0.1]), 100.0)).objective == 20.0
     assert references == [-sharper.ASIDE, sharper.ASIDE]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,6 +19,7 @@ WIDEST = 0.1  # of ln f: two lines that alone bear one name are a doublet's up t
 ROUNDING = 1e-9
 # of the distance up to which modes are partners: that of partners where most modes agree already
 NEAR = 0.2
+PARTED = 0.01  # of ln f: from which on the lines of a doublet are looked for where each of them is predicted
 
 Keys = tuple[ModeKey | None, ...]
 
@@ -30,7 +31,8 @@ def assigned(
     reach: float = 1.0,
 ) -> Keys:
     """Named partner of every measured mode; `reach`: as a part of how far partners may usually lie apart."""
-    simulated = sorted((_as_seen(m, modes) for m in predicted.values()), key=lambda mode: mode.frequency_hz)
+    seen = [_as_seen(m, modes) for m in predicted.values()]
+    simulated = sorted((line for m in seen for line in _lines(m)), key=lambda line: line.frequency_hz)
     used = [i for i, mode in enumerate(modes) if not (test.recorded and mode.order is None)]
     found = pair(
         [modes[i] for i in used],
@@ -39,15 +41,50 @@ def assigned(
         gate=GATE,
         labelled_gate=LABELLED_GATE,
         # a heavy lump may part a doublet's lines by more than any scatter does
-        doublet_split=max(
-            [DOUBLET_SPLIT, *(AS_FAR * abs(m.split) / 2 for m in simulated), *_of_one_name(modes)]
-        ),
+        doublet_split=max([DOUBLET_SPLIT, *(AS_FAR * abs(m.split) / 2 for m in seen), *_of_one_name(modes)]),
         with_doubt=False,
     )
     keys: list[ModeKey | None] = [None] * len(modes)
     for p in found.pairs:
         keys[used[p.measured]] = simulated[p.simulated].key
     return tuple(keys)
+
+
+@dataclass(frozen=True)
+class _Line:
+    """What a test may show of a predicted mode: both lines of a doublet, or one that lies far from the other."""
+
+    mode: PredictedMode
+    frequency_hz: float
+    multiplicity: int
+
+    @property
+    def key(self) -> ModeKey:
+        return self.mode.key
+
+    @property
+    def order(self) -> int | None:
+        return self.mode.order
+
+    @property
+    def axial(self) -> int | None:
+        return self.mode.axial
+
+    @property
+    def kind(self) -> str:
+        return self.mode.kind
+
+    @property
+    def visibility(self) -> float:
+        return self.mode.visibility
+
+
+def _lines(mode: PredictedMode) -> list[_Line]:
+    """A doublet that is parted by much has lines elsewhere than in its middle, and another's lie between them."""
+    away = abs(mode.split) / 4
+    if mode.multiplicity < 2 or away < PARTED:
+        return [_Line(mode, mode.frequency_hz, mode.multiplicity)]
+    return [_Line(mode, float(np.exp(mode.log_f + side * away)), 1) for side in (-1, 1)]
 
 
 def _of_one_name(modes: Sequence[MeasuredMode]) -> list[float]:

@@ -22,6 +22,7 @@ from statorhom.diagnose.decision import (
     within_bounds,
 )
 from statorhom.diagnose.explanations import (
+    ADEQUATE,
     WELL,
     Explanation,
     effect_evidence,
@@ -31,6 +32,7 @@ from statorhom.diagnose.gross_rows import without_gross_rows
 from statorhom.diagnose.held_out import HeldOut
 from statorhom.diagnose.held_out_lines import unseen_modes
 from statorhom.diagnose.held_out_name import held_out_names, renames_alone
+from statorhom.diagnose.hidden_materials import beside_hidden_materials
 from statorhom.diagnose.leading_effects import Leading, leading_effects
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.next_measurement import Choice
@@ -133,11 +135,8 @@ def _find(
     leading = leading_effects(approach, base, candidates, counts, settings.seed)
     found, confirmed = list(leading.found), True
     if leading.misfit_is_real:
-        if found and _is_open(found):
-            found = approach.refined(found, leading.base.valleys, counts)
         if found:
-            pairs, confirmed = confirmed_pairs(leading, found[0], counts, settings.seed)
-            found = pairs + found
+            found, confirmed = _with_pairs(approach, leading, counts, settings.seed)
         found = without_gross_rows(leading.base.free, found, counts)
     progress(1)
     none = nothing(leading.base.refit)
@@ -148,6 +147,21 @@ def _find(
     evidence = _evidence(leading, best, none, found, settings.seed)
     evidence = replace(evidence, confirmed=confirmed or len(best.candidates) < 2)
     return Found(decide(evidence), best, tuple(found), leading.scan, evidence, leading.base)
+
+
+def _with_pairs(
+    approach: Approach, leading: Leading, counts: dict[str, int], seed: int
+) -> tuple[list[Explanation], bool]:
+    """Single effects and pairs, the best first, and whether unseen modes confirm a pair that leads."""
+    found = list(leading.found)
+    hidden, confirmed = beside_hidden_materials(leading, found[0], counts, seed)
+    if hidden and hidden[0].adequacy_but_one > ADEQUATE:
+        # a model of its own would not bring any single effect so far
+        return hidden + found, confirmed
+    if _is_open(found):
+        found = approach.refined(found, leading.base.valleys, counts)
+    pairs, confirmed = confirmed_pairs(leading, found[0], counts, seed)
+    return pairs + found, confirmed
 
 
 def _is_open(found: Sequence[Explanation]) -> bool:

@@ -75,7 +75,7 @@ def in_order(base: Refit, found: Scan, favourites: Sequence[Signature]) -> Itera
     if not favourites:
         return
     first, *rest = favourites
-    trials = [(s.gain, _starts_of(base, found, s)) for s in (first, *rest)]
+    trials = [(s.gain, starts_of(base, found, s)) for s in (first, *rest)]
     if not is_poor(base):
         yield from trials
         return
@@ -83,7 +83,7 @@ def in_order(base: Refit, found: Scan, favourites: Sequence[Signature]) -> Itera
     begun = [trials.pop(0)] if price(trials[0]) < DEAR else []
     # gross errors are held down: what a cheap effect would gain is better tried than read from its signature
     others = [
-        (s.gain, _starts_of(base, found, s)) for s in found.of_every_candidate() if s not in (first, *rest)
+        (s.gain, starts_of(base, found, s)) for s in found.of_every_candidate() if s not in (first, *rest)
     ]
     cheap = [trial for trial in (*trials, *others) if price(trial) == CHEAP]
     alike = _of_different_effects([trial for trial in cheap if trial[0] >= ALIKE * first.gain], first)
@@ -103,7 +103,7 @@ def in_order(base: Refit, found: Scan, favourites: Sequence[Signature]) -> Itera
 
 def _all_over_the_prior(trial: Trial) -> Trial:
     gain, starts = trial
-    return gain, [*(_searched(starts[0]) if price(trial) == CHEAP else ()), *starts]
+    return gain, [*(searched(starts[0]) if price(trial) == CHEAP else ()), *starts]
 
 
 def _narrowed(trial: Trial) -> Trial:
@@ -150,7 +150,7 @@ def _promising(base: Refit, trials: Sequence[Trial]) -> list[Trial]:
     return [t for i, t in enumerate(ordered) if i < FIRST or without.objective - rough(t) >= least]
 
 
-def _starts_of(base: Refit, found: Scan, signature: Signature) -> list[Start]:
+def starts_of(base: Refit, found: Scan, signature: Signature) -> list[Start]:
     """The best starts of a candidate that are not neighbours, and those of its other magnitudes."""
     own = [s for s in found.signatures if s.candidate.label == signature.candidate.label]
     chosen: list[Signature] = []
@@ -212,7 +212,7 @@ def start_of(base: Refit, candidate: Candidate, start: np.ndarray) -> Start:
     return Start(hypothesis, np.r_[base.z, start])
 
 
-def _searched(start: Start) -> list[Start]:
+def searched(start: Start) -> list[Start]:
     """Starts at the best optima that are found all over the prior, in wide valleys."""
     found = searched_starts(start.hypothesis, start.z)[:STARTS]
     return [replace(start, z=rough.z, rough=rough) for rough in found]
@@ -220,7 +220,7 @@ def _searched(start: Start) -> list[Start]:
 
 def narrowed_starts(start: Start) -> list[Start]:
     """Starts at optima all over the prior in narrower valleys, for what will be sought from there straight away."""
-    narrow = (narrowed(s.rough) for s in _searched(start) if s.rough is not None)
+    narrow = (narrowed(s.rough) for s in searched(start) if s.rough is not None)
     return [replace(start, z=found.z) for found in narrow]
 
 

@@ -108,7 +108,7 @@ def _acted(r: Refit) -> Iterator[tuple[StageModel, Materials]]:
 
 def _sharpened(explanation: Explanation) -> Explanation:
     r = explanation.refit
-    moved = _own_model(r)
+    moved = in_its_own_model(r)
     again = refitted(moved, r.z)
     if again is None or again.objective > r.objective + WORSE:
         # other mesh factors may have put the constants onto a slope of another valley
@@ -118,7 +118,7 @@ def _sharpened(explanation: Explanation) -> Explanation:
     return replace(explanation, refit=again)
 
 
-def _own_model(r: Refit, *, mesh_known: bool = False) -> Hypothesis:
+def in_its_own_model(r: Refit, *, mesh_known: bool = False) -> Hypothesis:
     """With basis and, unless the old ones do, mesh factors of its own materials; to be paired anew."""
     hypothesis, arcs, stages = r.hypothesis, _arcs(r.hypothesis.actions(r.z)), []
     for stage, materials in _acted(r):
@@ -215,7 +215,7 @@ def _from_there(best: Refit, start: np.ndarray) -> Refit | None:
         there = evaluated(blank, start)
     except (StatorhomError, KeyError):
         return None
-    return refitted(_own_model(there, mesh_known=True), start, worth=best.objective)
+    return refitted(in_its_own_model(there, mesh_known=True), start, worth=best.objective)
 
 
 def _keeps_symmetry(found: Refit) -> bool:
