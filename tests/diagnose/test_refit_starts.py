@@ -110,7 +110,7 @@ def test_rivals_of_the_favourite_are_sought_all_over_the_prior(monkeypatch: pyte
     monkeypatch.setattr(refit_starts, "shared_by", lambda _: [])
     monkeypatch.setattr(refit_starts, "price", lambda _: refit_starts.CHEAP)
     monkeypatch.setattr(refit_starts, "starts_of", lambda _, __, s: [start[s.candidate.label]])
-    monkeypatch.setattr(refit_starts, "_searched", lambda s: [f"{s.name} searched"])
+    monkeypatch.setattr(refit_starts, "searched", lambda s: [f"{s.name} searched"])
     monkeypatch.setattr(refit_starts, "narrowed_starts", lambda s: [f"{s.name} searched, narrowed"])
     monkeypatch.setattr(refit_starts, "_with_rough", lambda _, starts: starts)
     monkeypatch.setattr(refit_starts, "_promising", lambda _, trials: trials)
