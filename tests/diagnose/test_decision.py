@@ -21,6 +21,7 @@ GOOD = Evidence(
     unpaired=False,
     over_nothing=40.0,
     over_others=12.0,
+    over_discrepancy=20.0,
     held_out=FALLS,
     adequacy=0.4,
     nothing_adequacy=1e-9,
@@ -43,6 +44,7 @@ def test_all_rules_met_names() -> None:
         ({"over_nothing": 4.0, "nothing_but_one": 0.3}, "none"),
         ({"nothing_but_one": 0.3}, "named"),
         ({"over_others": 2.0}, "ambiguous"),
+        ({"over_discrepancy": -0.5}, "unknown"),
         ({"held_out": None}, "ambiguous"),
         ({"held_out": replace(FALLS, after=FALLS.before)}, "unknown"),
         ({"adequacy": 1e-3}, "unknown"),
@@ -53,6 +55,15 @@ def test_all_rules_met_names() -> None:
 )
 def test_each_rule_fails_alone(change: dict[str, object], verdict: str) -> None:
     assert decide(replace(GOOD, **change)) == verdict
+
+
+def test_what_leaves_more_than_noise_has_to_be_far_ahead_of_a_discrepancy() -> None:
+    ahead = replace(GOOD, over_discrepancy=4.0)
+    assert decide(ahead) == "named"
+    assert decide(replace(ahead, adequacy=0.05)) == "unknown"
+    assert decide(replace(GOOD, adequacy=0.05)) == "named"
+    # rivals that explain it as well are told apart first
+    assert decide(replace(ahead, adequacy=0.05, over_others=1.0)) == "ambiguous"
 
 
 def test_a_fall_by_less_than_a_quarter_is_none() -> None:

@@ -111,6 +111,7 @@ def example_details(verdict: Verdict, stage: str = "stack", places: bool = True)
         p_value=2.5e-4 if verdict != "none" else 0.4,
         over_nothing=368.0 if verdict != "none" else -2.0,
         over_others=261.0 if verdict == "named" else 0.4,
+        over_discrepancy=240.0 if verdict == "named" else 12.0,
         adequacy=0.4 if verdict != "unknown" else 1e-12,
         nothing_adequacy=1e-150 if verdict != "none" else 0.3,
         stability=1.0 if verdict == "named" else 0.5,

@@ -20,7 +20,7 @@ OVER_ADEQUATE = 8.0
 # The same where too few modes show the effect for held-out ones to confirm it.
 FAR_OVER_NOTHING, FAR_OVER_OTHERS = 20.0, 5.0
 NEAR_RIVAL = 10.0  # of log evidence: up to which a rival and the best are compared in models of their own
-AS_IT_SHOULD = 0.1  # chance of the declared model's misfit from which on there is nothing to explain
+AS_IT_SHOULD = 0.1  # chance of a misfit from which on there is nothing (more) to explain
 STABLE = 0.8
 FEW = 4  # modes that show an effect, below which held-out modes cannot decide
 NEAR_BOUND = 0.02  # of a parameter's range, in its own scale
@@ -35,6 +35,7 @@ class Evidence:
     p_value : of the scan's maximum.
     unpaired : whether the declared model lacks many modes that were measured: what has no partner, no scan sees.
     over_nothing, over_others : log evidence of the best explanation over "nothing" and over the next one.
+    over_discrepancy : and over modes that are off by chance (`statorhom.diagnose.free_discrepancy`).
     held_out : errors on modes that were not seen; None where there were too few.
     adequacy : posterior-predictive p of the best explanation, one gross error aside.
     nothing_adequacy, nothing_but_one : and of the declared model, with every row and without the worst.
@@ -47,6 +48,7 @@ class Evidence:
     unpaired: bool
     over_nothing: float
     over_others: float
+    over_discrepancy: float
     held_out: HeldOut | None
     adequacy: float
     nothing_adequacy: float
@@ -62,7 +64,7 @@ class Evidence:
 
     @property
     def detected(self) -> bool:
-        """Rule 1, and the first half of rule 2: something is missing."""
+        """Rule 1, and the first part of rule 2: something is missing."""
         least = OVER_ADEQUATE if self.nothing_adequacy > AS_IT_SHOULD else OVER_NOTHING
         return not self.by_chance and self.over_nothing > least
 
@@ -92,6 +94,15 @@ class Evidence:
     def sound(self) -> bool:
         """Rule 4."""
         return self.adequacy > ADEQUATE and self.within
+
+    @property
+    def in_library(self) -> bool:
+        """Last part of rule 2: something that is in no library would not do as well.
+
+        What leaves more than noise does has to be as far ahead of that as it is of nothing: lumps in several places
+        look like one, and a mass on a spring like a rigid one, but not quite.
+        """
+        return self.over_discrepancy > (0.0 if self.adequacy > AS_IT_SHOULD else OVER_NOTHING)
 
     @property
     def undecided(self) -> bool:
@@ -124,8 +135,9 @@ def decide(evidence: Evidence) -> Verdict:
     if not (evidence.predicts or evidence.evident) or not evidence.confirmed:
         return "ambiguous"
     # resamplings are lost to rivals alone, so that an unstable winner has some
-    alone = evidence.over_others > OVER_OTHERS and evidence.stability >= STABLE
-    return "named" if alone else "ambiguous"
+    if evidence.over_others <= OVER_OTHERS or evidence.stability < STABLE:
+        return "ambiguous"
+    return "named" if evidence.in_library else "unknown"
 
 
 def within_bounds(explanation: Explanation) -> bool:

@@ -28,6 +28,7 @@ from statorhom.diagnose.explanations import (
     effect_evidence,
     nothing,
 )
+from statorhom.diagnose.free_discrepancy import discrepancy_evidence
 from statorhom.diagnose.gross_rows import without_gross_rows
 from statorhom.diagnose.held_out import HeldOut
 from statorhom.diagnose.held_out_lines import unseen_modes
@@ -193,6 +194,7 @@ def _evidence(
         unpaired=leading.unpaired,
         over_nothing=over,
         over_others=float(own - next_best) if np.isfinite(next_best) else float("inf"),
+        over_discrepancy=own - discrepancy_evidence(leading.base.refit),
         held_out=unseen,
         adequacy=best.adequacy_but_one,
         nothing_adequacy=none.adequacy,
@@ -261,6 +263,7 @@ def _details(approach: Approach, files: StudyFiles, found: Found, choice: Choice
         p_value=e.p_value,
         over_nothing=e.over_nothing,
         over_others=min(e.over_others, 1e6),
+        over_discrepancy=e.over_discrepancy,
         adequacy=e.adequacy,
         nothing_adequacy=e.nothing_adequacy,
         stability=e.stability,

@@ -224,7 +224,10 @@ class SimplerRow(_Part):
 
 
 class Details(_Part):
-    """The numbers behind a diagnosis; `second_confirmed` of two effects, None of others."""
+    """The numbers behind a diagnosis; `second_confirmed` of two effects, None of others.
+
+    `over_discrepancy` is None in results of versions that did not ask.
+    """
 
     p_value: float
     over_nothing: float
@@ -251,6 +254,7 @@ class Details(_Part):
     refit_note: str | None = None
     simpler: SimplerRow | None = None
     second_confirmed: bool | None = None
+    over_discrepancy: float | None = None
 
 
 def write_diagnosis(diagnosis: Diagnosis, details: Details, folder: Path) -> Path:

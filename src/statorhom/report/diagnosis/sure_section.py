@@ -114,9 +114,18 @@ def _rules(d: Diagnosis, e: Details) -> Table:
             e.stability >= 0.8,
         ),
     ]
+    if e.over_discrepancy is not None:
+        least, needed = (0.0, "over 1 : 1") if e.adequacy > 0.1 else (5.0, "over 148 : 1")
+        own = (
+            "… and to something else that moves each mode by chance",
+            f"odds {_odds(e.over_discrepancy)}",
+            needed,
+            e.over_discrepancy > least,
+        )
+        rows.insert(3, own)
     if e.second_confirmed is not None:
         found = "yes" if e.second_confirmed else "too few modes show it"
-        rows.insert(4, ("… and better with both effects than with one", found, "yes", e.second_confirmed))
+        rows.insert(-2, ("… and better with both effects than with one", found, "yes", e.second_confirmed))
     head = (
         Column(text("test")),
         Column(text("found"), "right"),

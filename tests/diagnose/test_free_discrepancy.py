@@ -1,0 +1,71 @@
+"""Evidence of modes that are off by chance, against the densities of normal distributions."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.special import logsumexp
+from scipy.stats import multivariate_normal
+
+from statorhom.diagnose.feature import Feature
+from statorhom.diagnose.free_discrepancy import AMPLITUDES, discrepancy_evidence
+from statorhom.diagnose.refit import Refit
+
+SD = np.array([1e-3, 2e-3, 1e-3, 3e-3, 2e-3])
+KINDS = ("frequency", "frequency", "frequency", "split", "split")
+SLOPES = np.array([[0.5, 0.1], [0.4, -0.2], [0.5, 0.0], [0.0, 0.1], [0.0, 0.3]])  # in standard deviations
+
+
+def declared(errors: np.ndarray, *, lost: int | None = None) -> Refit[Any]:
+    """A linear model of two constants at its optimum, beside errors (n,) in standard deviations."""
+    z = -np.linalg.solve(SLOPES.T @ SLOPES + np.eye(2), SLOPES.T @ errors)
+    left = errors + SLOPES @ z
+    features = [
+        Feature(kind, "t", (2, i, 0), float(r * sd), 0.0, float(sd))
+        for i, (kind, r, sd) in enumerate(zip(KINDS, left, SD, strict=True))
+    ]
+    if lost is not None:
+        features[lost] = Feature("frequency", "t", None, float(left[lost]), 0.0, 1.0, lost=True)
+    hypothesis = SimpleNamespace(features=lambda _: features, prior_weights=np.ones(2), missed=0.0)
+    return Refit(hypothesis, z, SLOPES, float(left @ left), float(left @ left + z @ z))  # type: ignore[arg-type]
+
+
+def by_densities(errors: np.ndarray, lost: int | None = None) -> float:
+    own = []
+    for a in AMPLITUDES:
+        for b in AMPLITUDES:
+            off = np.where(np.array(KINDS) == "frequency", a, b) / SD
+            if lost is not None:
+                off[lost] = 0.0
+            covariance = np.diag(1 + off**2) + SLOPES @ SLOPES.T
+            own.append(multivariate_normal.logpdf(errors, cov=covariance))
+    return float(logsumexp(own)) - 2 * np.log(len(AMPLITUDES)) + 0.5 * len(errors) * np.log(2 * np.pi)
+
+
+@pytest.mark.parametrize("lost", [None, 2])
+def test_the_evidence_is_the_mean_of_the_data_s_densities(lost: int | None) -> None:
+    errors = np.array([3.0, -2.0, 4.0, 1.0, -5.0])
+    assert discrepancy_evidence(declared(errors, lost=lost)) == pytest.approx(
+        by_densities(errors, lost), abs=1e-9
+    )
+
+
+def test_it_gains_nothing_where_nothing_is_off() -> None:
+    fits = declared(np.array([0.3, -0.2, 0.1, 0.4, -0.5]))
+    assert discrepancy_evidence(fits) < fits.log_evidence
+
+
+def test_it_gains_much_where_every_mode_is_off() -> None:
+    off = declared(np.array([7.0, -6.0, 5.0, 7.0, -7.0]))
+    assert discrepancy_evidence(off) > off.log_evidence + 20
+
+
+def test_one_gross_error_costs_no_more_than_it_costs_an_effect() -> None:
+    """A wrong name is off by 50 standard deviations and is held down in every model."""
+    errors = np.array([0.1, 0.2, 60.0, 0.3, -0.2])
+    held = discrepancy_evidence(declared(errors))
+    assert held > by_densities(errors) - 5
+    assert np.isfinite(held)
