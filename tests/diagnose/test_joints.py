@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -9,21 +10,23 @@ import pytest
 import scipy.sparse as sp
 from small_stators import MATERIALS, stator_mesh
 
-from statorhom.diagnose.joint_basis import JointBasis, joint_basis
+from statorhom.diagnose.feature import SINGLE
+from statorhom.diagnose.joint_basis import JoinedMode, JointBasis, joint_basis
 from statorhom.materials.hooke import Hooke
-from statorhom.model.affine import Material, assemble
+from statorhom.model.affine import Material, assemble, hooke_coefficients
 from statorhom.model.broken.basis import symmetric_basis
 from statorhom.model.broken.cells import Sectors
 from statorhom.model.broken.change import PieceChange
 from statorhom.model.broken.interface import contact, split
 from statorhom.model.broken.solve import solve_broken
-from statorhom.model.convergence import mode_keys
+from statorhom.model.convergence import ModeKey, mode_keys
 from statorhom.model.free_modes import FreeProblem, problem_at
 from statorhom.physics.action import Joint
 
 TOP, SLOTS = 5000.0, 8
 WOUND = ("winding", "overhang")
 BOND = 1e14
+LOOSE = Joint(WOUND, BOND, BOND, (0.0, np.deg2rad(110.0)), 3e-3)
 
 
 @pytest.fixture(scope="module")
@@ -37,6 +40,15 @@ def trained() -> JointBasis:
     """Beside arcs on either side of 110° and a hundredth of the stiffness."""
     mesh = stator_mesh(SLOTS, ("stack", "wound"))
     arcs = [Joint(WOUND, BOND, BOND, (0.0, np.deg2rad(110.0) * f), 0.01 / f**2) for f in (0.9, 1.1)]
+    return joint_basis(mesh, WOUND, MATERIALS, TOP, range(4), may_differ=True, arcs=arcs)
+
+
+@pytest.fixture(scope="module")
+def loose() -> JointBasis:
+    """Beside arcs on either side of `LOOSE`, within which the winding moves by itself."""
+    mesh = stator_mesh(SLOTS, ("stack", "wound"))
+    (_, width), ratio = LOOSE.arc, LOOSE.ratio
+    arcs = [replace(LOOSE, arc=(0.0, width * f), ratio=ratio / f**2) for f in (0.9, 1.1)]
     return joint_basis(mesh, WOUND, MATERIALS, TOP, range(4), may_differ=True, arcs=arcs)
 
 
@@ -71,11 +83,11 @@ def test_slopes_by_the_winding_are_those_of_the_full_model(basis: JointBasis) ->
         assert slope == pytest.approx(exact, rel=0.03)
 
 
-def on_the_mesh(width: float, ratio: float) -> np.ndarray:
+def on_the_mesh(width: float, ratio: float, highest_hz: float = 3000.0) -> np.ndarray:
     """Frequencies (Hz) of the full model."""
     half = split(stator_mesh(SLOTS, ("stack", "wound")), WOUND)
     joint = contact(half, WOUND, BOND, BOND)
-    full_basis = symmetric_basis(assemble(half), MATERIALS, 3000.0, margin=1.5, contact=joint.matrix)
+    full_basis = symmetric_basis(assemble(half), MATERIALS, highest_hz, margin=1.5, contact=joint.matrix)
     share = Sectors(np.array([[0.0, np.pi / SLOTS]]), SLOTS).share_of_arc(-width / 2, width / 2)
     weights = np.repeat((ratio - 1) * share, len(joint.pieces), axis=0)
     return solve_broken(full_basis, [PieceChange(joint.pieces, None, weights)]).frequencies_hz
@@ -111,3 +123,45 @@ def test_the_place_of_an_arc_turns_the_splits_alone(basis: JointBasis) -> None:
         assert turned[key].split == pytest.approx(one.split * np.exp(1.8j * key[0]))
     # less stiffness at the arc: its antinode belongs to the lower mode
     assert first[2, 0, 0].split.real < 0
+
+
+def lines_of(modes: Mapping[ModeKey, JoinedMode]) -> dict[tuple[ModeKey, int], float]:
+    """Frequencies (Hz) of single modes and of both lines of doublets."""
+    found = {}
+    for key, one in modes.items():
+        for side in (-1, 1) if one.mode.multiplicity == 2 else (0,):
+            found[key, side] = float(np.exp(one.log_f + side * abs(one.split) / 4))
+    return found
+
+
+def test_modes_of_the_arc_alone_are_those_of_the_full_model(loose: JointBasis) -> None:
+    lines = lines_of(loose.solve(MATERIALS, LOOSE))
+    single = {key: f for (key, _), f in lines.items() if key[2] >= SINGLE and f < 4300.0}
+    exact = on_the_mesh(LOOSE.arc[1], LOOSE.ratio, 4500.0)
+    assert single
+    for key, f in single.items():
+        assert np.abs(np.log(exact / f)).min() < 5e-3, key
+    # no mode stands there twice
+    assert sum(f < 4300.0 for f in lines.values()) <= np.count_nonzero(exact < 4320.0)
+
+
+def test_an_arc_that_loses_next_to_nothing_has_no_modes_of_its_own(basis: JointBasis) -> None:
+    found = basis.solve(MATERIALS, Joint(WOUND, BOND, BOND, (0.0, 1.2), 0.999))
+    even = basis.solve(MATERIALS, Joint(WOUND, BOND, BOND))
+    assert set(found) == set(even)
+    assert all(found[key].log_f == pytest.approx(one.log_f, abs=1e-4) for key, one in even.items())
+
+
+def test_slopes_of_an_arc_s_own_modes_are_differences(loose: JointBasis) -> None:
+    step, here = 1e-3, loose.solve(MATERIALS, LOOSE)
+    keys = [key for key in here if key[2] >= SINGLE][:3]
+    ends = []
+    for factor in (1 - step, 1 + step):
+        own = Material(Hooke(factor * MATERIALS["winding"].hooke.matrix), MATERIALS["winding"].density)
+        ends.append(loose.solve({**MATERIALS, "winding": own}, LOOSE))
+    entries = hooke_coefficients(MATERIALS["winding"].hooke)
+    assert keys
+    for key in keys:
+        slope = here[key].slope.reshape(-1, 10)[list(MATERIALS).index("winding"), :9] @ entries
+        found = (ends[1][key].log_f - ends[0][key].log_f) / (2 * step)
+        assert slope == pytest.approx(found, rel=1e-3, abs=1e-6)

@@ -67,6 +67,17 @@ def test_what_was_found_beside_another_valley_is_judged_by_its_evidence(
     assert found.chance(found.found[1]) == 0.5
 
 
+def test_a_contact_lost_beside_another_winding_is_judged_by_its_evidence(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    weaker, arc, lump = explanation("arc", -60.0), explanation("arc", -40.0), explanation("lump", -50.0)
+    monkeypatch.setattr(leading, "with_lost_contact", lambda *_: [arc])
+    found = led(monkeypatch, 0.5, (base(-700.0), [lump, weaker]))
+    assert found.found == (arc, lump)
+    assert found.chance(arc) < 1e-15
+    assert found.chance(lump) == 1e-4
+
+
 def test_a_deeper_valley_may_leave_nothing_to_explain(monkeypatch: pytest.MonkeyPatch) -> None:
     found = led(monkeypatch, 0.5, (base(-700.0), [explanation("loose", -100.0)]), (base(-99.0), []))
     assert not found.misfit_is_real

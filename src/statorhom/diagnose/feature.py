@@ -14,6 +14,7 @@ LINEAR, KNEE = 8.0, 3.0  # residuals grow with their logarithm beyond: one outli
 # shapes of modes that come near each other mix at once, and what mixes is no guide to what causes it.
 MOST = {"loss": 3.0, "lean": 4.0}
 NUMBERED = -1  # in the place of n: a mode without a name, told by its row in the table
+SINGLE = 50  # in the place of a rank, and above: a mode that is single though those of its order are doublets
 LOST, LOST_UNNAMED = 10.0, 4.0  # residual of a mode of a table that has no partner
 
 

@@ -13,7 +13,7 @@ from math import hypot, log, sqrt, tanh
 import numpy as np
 
 from statorhom.diagnose.assignment import Keys
-from statorhom.diagnose.feature import LOST, Feature
+from statorhom.diagnose.feature import LOST, SINGLE, Feature
 from statorhom.diagnose.lost_lines import lost_lines
 from statorhom.diagnose.measured import MeasuredSplit, MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
@@ -24,6 +24,7 @@ from statorhom.study.modal_table import MeasuredMode
 
 # of frequencies: floor, part of the mesh's correction, and what its square adds where the mesh is too coarse for that
 OWN, OWN_PART, OWN_SQUARE = 5e-4, 0.05, 3.0
+ALONE = 5e-3  # of a mode that only an arc of lost contact has: no finer mesh has shown it
 SCATTER_SD = (
     1.2e-3  # of either part of a stiffness wave 2r in the core: sheets, punching and welding vary that much
 )
@@ -76,7 +77,7 @@ def _vanished(test: MeasuredTest, rows: Sequence[MeasuredMode], key: ModeKey) ->
     """Penalties in the place of the features of a held partner that is predicted no more: as many, in their order."""
     labels = tuple(row.label for row in rows)
     if len(rows) == 1:
-        kinds = ["frequency"] if key[0] == 0 else ["frequency", "split"]
+        kinds = ["frequency"] if key[0] == 0 or key[2] >= SINGLE else ["frequency", "split"]
     else:
         seen = _split_of(test, rows) is not None
         kinds = ["frequency", *(["split"] * (2 if seen else 0 if test.recorded else 1))]
@@ -99,7 +100,8 @@ def with_rows(found: Sequence[Feature], modes: Sequence[MeasuredMode], keys: Key
 def own_sd(error: ModelError, key: ModeKey) -> float:
     """Relative model error of a mode that others do not share: what of the mesh's is not in their common pattern."""
     correction = error.factor(key) - 1.0
-    return hypot(OWN, OWN_PART * correction, OWN_SQUARE * correction**2, error.borrowed(key))
+    alone = ALONE if key[2] >= SINGLE else 0.0
+    return hypot(OWN, OWN_PART * correction, OWN_SQUARE * correction**2, error.borrowed(key), alone)
 
 
 def measured_sd(mode: MeasuredMode) -> float:

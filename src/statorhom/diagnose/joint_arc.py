@@ -6,6 +6,7 @@ shapes apart. All faces of a half pitch weaken alike, by the share of it that th
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -53,19 +54,29 @@ class Weakened:
     even: RingModes
     families: tuple[Family, ...]
 
-    def response(self, mode: StatorMode, materials: Materials) -> tuple[float, complex, np.ndarray] | None:
-        """ln f of the mean λ, relative split, and d ln f by the materials; None where the mode is lost."""
-        members = [(family, family.of(mode)) for family in self.families[: mode.multiplicity]]
-        parts = [(family.values[i], family, i) for family, i in members if i is not None]
-        if len(parts) < len(members):
-            return None
-        values = [float(value) for value, _, _ in parts]
+    def response(self, members: Sequence[int], materials: Materials) -> tuple[float, complex, np.ndarray]:
+        """ln f of the mean λ, relative split, and d ln f by the materials, of a mode of the even contact.
+
+        Parameters
+        ----------
+        members : the modes that it is most of, family by family.
+        """
+        parts = list(zip(self.families, members, strict=False))
+        values = [float(family.values[i]) for family, i in parts]
         mean = float(np.mean(values))
         split = complex((values[0] - values[1]) / mean) if len(values) == 2 else 0j
-        slopes = [value / mean * self._slope(family, i, materials) for value, family, i in parts]
+        slopes = [
+            value / mean * self.slope(family, i, materials)
+            for value, (family, i) in zip(values, parts, strict=True)
+        ]
         return 0.5 * float(np.log(mean)) - float(np.log(2 * np.pi)), split, np.mean(slopes, axis=0)
 
-    def _slope(self, family: Family, number: int, materials: Materials) -> np.ndarray:
+    def members(self, mode: StatorMode) -> list[int | None]:
+        """Of each family that a mode of the even contact has a shape in, the number of the mode that is most of it."""
+        return [family.of(mode) for family in self.families[: mode.multiplicity]]
+
+    def slope(self, family: Family, number: int, materials: Materials) -> np.ndarray:
+        """d ln f of a family's mode by the materials."""
         total = np.zeros(10 * len(materials))
         for problem, start in family.starts.items():
             vectors = self.even.vectors[problem]

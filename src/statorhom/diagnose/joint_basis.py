@@ -7,13 +7,17 @@ evaluation costs milliseconds.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from math import log
 
 import numpy as np
 
-from statorhom.diagnose.joint_arc import ArcGroup, arc_groups
+from statorhom.diagnose.feature import SINGLE
+from statorhom.diagnose.joint_arc import ArcGroup, Weakened, arc_groups
+from statorhom.diagnose.joint_born import BornMode, born_modes, surface
 from statorhom.diagnose.joint_fields import with_local_fields
 from statorhom.diagnose.joint_training import with_arcs
 from statorhom.diagnose.ring_basis import RingBasis, RingModes, ring_basis
@@ -102,14 +106,39 @@ class JointBasis:
                 for key, mode in keys.items()
             }
         found: dict[ModeKey, JoinedMode] = {}
+        born: list[BornMode] = []
+        place = len(self.ring.problems)
         for group in self.groups:
-            for key, mode in keys.items():
-                if mode.problem not in group.numbers:
-                    continue
-                response = group.weakened(even, joint).response(mode, materials)
-                if response is not None:
-                    found[key] = JoinedMode(mode, *response)
-        return found
+            weakened = group.weakened(even, joint)
+            own = {key: mode for key, mode in keys.items() if mode.problem in group.numbers}
+            named, others = self._named(weakened, own, place, materials)
+            found |= named
+            born += others
+            place += len(weakened.families)
+        return found | _with_names(born)
+
+    def _named(
+        self, weakened: Weakened, keys: Mapping[ModeKey, StatorMode], place: int, materials: Materials
+    ) -> tuple[dict[ModeKey, JoinedMode], list[BornMode]]:
+        """Modes of one axial parity that look like the even contact's, and all others."""
+        surfaces = [surface(weakened.even, family, self.ring.highest_hz) for family in weakened.families]
+        found: dict[ModeKey, JoinedMode] = {}
+        known: list[set[int]] = [set() for _ in surfaces]
+        for key, mode in keys.items():
+            members = [i for i in weakened.members(mode) if i is not None]
+            pairs = list(zip(surfaces, members, strict=False))
+            if len(members) < mode.multiplicity or not all(s.shows(i, mode) for s, i in pairs):
+                continue
+            found[key] = JoinedMode(mode, *weakened.response(members, materials))
+            for numbers, i in zip(known, members, strict=False):
+                numbers.add(i)
+        mass = sum(materials[region].density * v for region, v in self.ring.model.volumes.items())
+        born = [
+            one
+            for n, (seen, numbers) in enumerate(zip(surfaces, known, strict=True))
+            for one in born_modes(weakened, n, seen, numbers, place + n, mass, materials)
+        ]
+        return found, born
 
     def _even(self, materials: Materials, joint: Joint) -> RingModes:
         """Modes with the contact the same all around."""
@@ -118,6 +147,19 @@ class JointBasis:
             K, M = problem.matrices(materials)
             matrices.append((K + joint.normal * springs[0] + joint.tangential * springs[1], M))
         return self.ring.solve_matrices(matrices, materials)
+
+
+def _with_names(born: Sequence[BornMode]) -> dict[ModeKey, JoinedMode]:
+    """Ranks of modes that the even contact has not."""
+    ranks: Counter[tuple[int, int]] = Counter()
+    found = {}
+    for one in sorted(born, key=lambda b: b.mode.frequency_hz):
+        family = one.mode.family
+        assert family is not None
+        key = (*family, SINGLE + ranks[family])
+        found[key] = JoinedMode(one.mode, log(one.mode.frequency_hz), 0j, one.slope)
+        ranks[family] += 1
+    return found
 
 
 def joint_basis(

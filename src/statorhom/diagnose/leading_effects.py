@@ -13,6 +13,7 @@ from statorhom.diagnose.decision import OVER_NOTHING, is_chance
 from statorhom.diagnose.explanations import ADEQUATE, Explanation, nothing
 from statorhom.diagnose.held_out_name import renames_alone
 from statorhom.diagnose.lacking_modes import lacks_modes
+from statorhom.diagnose.lost_contact import with_lost_contact
 from statorhom.diagnose.scan import Scan, scan
 from statorhom.diagnose.single_effects import new_names, single_effects
 from statorhom.physics.candidate import Candidate
@@ -79,7 +80,7 @@ def leading_effects(
             break
         search = not _explains(leading.found[0], deeper)
         leading = _joined(leading, _beside(deeper, candidates, counts, seed, search=search))
-    return leading
+    return _with_lost_contact(leading, candidates, counts)
 
 
 def _beside(
@@ -99,6 +100,17 @@ def _beside(
         # nothing but another name can be found any more
         found = new_names(base.free, discrete, counts)
     return replace(begun, found=tuple(found))
+
+
+def _with_lost_contact(leading: Leading, candidates: Sequence[Candidate], counts: dict[str, int]) -> Leading:
+    """What no signature beside the declared winding shows."""
+    lost = with_lost_contact(leading.base.free, leading.found, candidates, counts)
+    if not lost:
+        return leading
+    labels = {e.label for e in lost}
+    rest = [e for e in leading.found if e.label not in labels]
+    found = sorted((*lost, *rest), key=lambda e: -e.log_evidence)
+    return replace(leading, found=tuple(found), elsewhere=leading.elsewhere | labels)
 
 
 def _explains(best: Explanation, deeper: Baseline) -> bool:
