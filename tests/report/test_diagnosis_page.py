@@ -102,6 +102,30 @@ def test_of_two_effects_the_second_is_asked_for_by_itself() -> None:
     assert f"{asked} too few modes show it yes no" in said
 
 
+@pytest.mark.parametrize(
+    ("kind", "values", "said"),
+    [
+        ("loss", (-4.471, -4.637, -4.5), "loss factor 0.0114 0.0097 0.0111"),
+        ("level", (-0.01, 0.0, -0.009), "frequency above that of the lowest force -1.00 % +0.00 % -0.90 %"),
+        (
+            "level_loss",
+            (0.1, 0.0, 0.09),
+            "loss factor above that of the lowest force +10.52 % +0.00 % +9.42 %",
+        ),
+        ("density", (7680.4, 7640.0, 7681.0), "density of the sheets 7680 kg/m³ 7640 kg/m³ 7681 kg/m³"),
+    ],
+)
+def test_features_are_told_in_units_that_people_use(
+    kind: str, values: tuple[float, float, float], said: str
+) -> None:
+    measured, before, after = values
+    row = FeatureRow(
+        stage="stack", test="t", mode=(2, 0), kind=kind, measured=measured, before=before, after=after, sd=0.1
+    )
+    details = example_details("named").model_copy(update={"features": (row,)})
+    assert said in words_of(render_html(diagnosis_document(example_diagnosis("named"), details)))
+
+
 def test_a_lean_is_told_in_percent() -> None:
     lean = FeatureRow(
         stage="stack",

@@ -55,4 +55,10 @@ def _shown(kind: str, value: float) -> str:
         return f"{100 * value:+.4f} %"
     if kind == "lean":
         return f"{round(100 * value, 2) + 0.0:+.2f} %"  # no minus before nothing
+    if kind == "loss":
+        return f"{np.exp(value):.4f}"
+    if kind in ("level", "level_loss"):
+        return f"{100 * np.expm1(value):+.2f} %"
+    if kind == "density":
+        return f"{value:.0f} kg/m³"
     return f"{value:.4g}"

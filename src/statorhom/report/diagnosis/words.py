@@ -35,6 +35,9 @@ KINDS = {
     "lean": "how far the shape leans to one end",
     "shape": "shape",
     "damping": "damping",
+    "loss": "loss factor",
+    "level": "frequency above that of the lowest force",
+    "level_loss": "loss factor above that of the lowest force",
     "density": "density of the sheets",
 }
 
