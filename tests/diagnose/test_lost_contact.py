@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose import lost_contact as module
+from statorhom.diagnose import valleys as valleys_of
 from statorhom.diagnose.lost_contact import FOLLOWED, GRID, WINDINGS, with_lost_contact
 from statorhom.diagnose.refit_starts import Start
 from statorhom.errors import SolverError
@@ -44,7 +45,7 @@ class Valleys:
         monkeypatch.setattr(module, "in_its_own_model", self.model)
         monkeypatch.setattr(module, "scan_starts", lambda *_: [np.zeros(4)])
         monkeypatch.setattr(module, "start_of", self.start)
-        monkeypatch.setattr(module, "refit_objective", self.distance)
+        monkeypatch.setattr(valleys_of, "refit_objective", self.distance)
         monkeypatch.setattr(module, "refitted", self.refitted)
 
     @staticmethod

@@ -48,6 +48,24 @@ class Family:
 
 
 @dataclass(frozen=True, eq=False)
+class JoinedMode:
+    """A named mode of a step with a joint.
+
+    Parameters
+    ----------
+    mode : with the contact the same all around.
+    log_f : ln of the frequency (Hz) of the doublet's mean λ.
+    split : complex relative split of λ.
+    slope : d ln f by the Hooke entries and the density of all regions, one after the other.
+    """
+
+    mode: StatorMode
+    log_f: float
+    split: complex
+    slope: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
 class Weakened:
     """All modes of one axial parity."""
 

@@ -7,17 +7,15 @@ evaluation costs milliseconds.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import log
 
 import numpy as np
 
 from statorhom.diagnose.feature import SINGLE
-from statorhom.diagnose.joint_arc import ArcGroup, Weakened, arc_groups
-from statorhom.diagnose.joint_born import BornMode, born_modes, surface
+from statorhom.diagnose.joint_arc import ArcGroup, JoinedMode, Weakened, arc_groups
+from statorhom.diagnose.joint_born import born_modes, surface
 from statorhom.diagnose.joint_fields import with_local_fields
 from statorhom.diagnose.joint_training import with_arcs
 from statorhom.diagnose.ring_basis import RingBasis, RingModes, ring_basis
@@ -27,29 +25,12 @@ from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.broken.interface import contact, split
 from statorhom.model.broken.pieces import Pieces
 from statorhom.model.convergence import ModeKey, mode_keys
+from statorhom.model.free_modes import total_mass
 from statorhom.model.stator_mode import StatorMode
 from statorhom.physics.action import Joint
 
 LADDER = (1e14, 1e12, 1e11, 1e10)  # N/m³: contacts whose modes span the bases
 KEPT = 64  # solutions
-
-
-@dataclass(frozen=True, eq=False)
-class JoinedMode:
-    """A named mode of a step with a joint.
-
-    Parameters
-    ----------
-    mode : with the contact the same all around.
-    log_f : ln of the frequency (Hz) of the doublet's mean λ.
-    split : complex relative split of λ.
-    slope : d ln f by the Hooke entries and the density of all regions, one after the other.
-    """
-
-    mode: StatorMode
-    log_f: float
-    split: complex
-    slope: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +87,7 @@ class JointBasis:
                 for key, mode in keys.items()
             }
         found: dict[ModeKey, JoinedMode] = {}
-        born: list[BornMode] = []
+        born: list[JoinedMode] = []
         place = len(self.ring.problems)
         for group in self.groups:
             weakened = group.weakened(even, joint)
@@ -119,7 +100,7 @@ class JointBasis:
 
     def _named(
         self, weakened: Weakened, keys: Mapping[ModeKey, StatorMode], place: int, materials: Materials
-    ) -> tuple[dict[ModeKey, JoinedMode], list[BornMode]]:
+    ) -> tuple[dict[ModeKey, JoinedMode], list[JoinedMode]]:
         """Modes of one axial parity that look like the even contact's, and all others."""
         surfaces = [surface(weakened.even, family, self.ring.highest_hz) for family in weakened.families]
         found: dict[ModeKey, JoinedMode] = {}
@@ -132,7 +113,7 @@ class JointBasis:
             found[key] = JoinedMode(mode, *weakened.response(members, materials))
             for numbers, i in zip(known, members, strict=False):
                 numbers.add(i)
-        mass = sum(materials[region].density * v for region, v in self.ring.model.volumes.items())
+        mass = total_mass(self.ring.model, materials)
         born = [
             one
             for n, (seen, numbers) in enumerate(zip(surfaces, known, strict=True))
@@ -149,17 +130,12 @@ class JointBasis:
         return self.ring.solve_matrices(matrices, materials)
 
 
-def _with_names(born: Sequence[BornMode]) -> dict[ModeKey, JoinedMode]:
+def _with_names(born: Sequence[JoinedMode]) -> dict[ModeKey, JoinedMode]:
     """Ranks of modes that the even contact has not."""
-    ranks: Counter[tuple[int, int]] = Counter()
-    found = {}
-    for one in sorted(born, key=lambda b: b.mode.frequency_hz):
-        family = one.mode.family
-        assert family is not None
-        key = (*family, SINGLE + ranks[family])
-        found[key] = JoinedMode(one.mode, log(one.mode.frequency_hz), 0j, one.slope)
-        ranks[family] += 1
-    return found
+    ordered = sorted(born, key=lambda one: one.log_f)
+    keys = mode_keys(one.mode for one in ordered)
+    pairs = zip(keys, ordered, strict=True)
+    return {(order, axial, SINGLE + rank): one for (order, axial, rank), one in pairs}
 
 
 def joint_basis(

@@ -8,29 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass
+from math import log
 
 import numpy as np
 
-from statorhom.diagnose.joint_arc import Family, Weakened
+from statorhom.diagnose.joint_arc import Family, JoinedMode, Weakened
 from statorhom.diagnose.ring_basis import RingModes
 from statorhom.model.affine import Materials
 from statorhom.model.eigen import frequency_hz
 from statorhom.model.radial_profile import node_planes
 from statorhom.model.stator_mode import RIGID_HZ, VISIBLE, StatorMode
-
-
-@dataclass(frozen=True, eq=False)
-class BornMode:
-    """A single mode of a weakened contact.
-
-    Parameters
-    ----------
-    mode : named by its surface; its place is its number among the modes of its family.
-    slope : d ln f by the materials.
-    """
-
-    mode: StatorMode
-    slope: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,8 +60,10 @@ def born_modes(
     place: int,
     mass: float,
     materials: Materials,
-) -> list[BornMode]:
+) -> list[JoinedMode]:
     """Visible modes of the band that bear no name of the even contact.
+
+    They are named by their surface, and the place of each is its number among the modes of its family.
 
     Parameters
     ----------
@@ -94,5 +83,5 @@ def born_modes(
         if i in named or f < RIGID_HZ or visibility[i] <= VISIBLE:
             continue
         mode = StatorMode(f, int(seen.order[i]), axial[i], "radial", visibility[i], 1, place, i)
-        found.append(BornMode(mode, weakened.slope(family, i, materials)))
+        found.append(JoinedMode(mode, log(f), 0j, weakened.slope(family, i, materials)))
     return found

@@ -15,10 +15,11 @@ import numpy as np
 
 from statorhom.diagnose.constants import new_constants
 from statorhom.diagnose.explanations import ADEQUATE, Explanation, blank, explained, nothing, refitted
-from statorhom.diagnose.refit import Refit, evaluated, refit_objective
+from statorhom.diagnose.refit import Refit, evaluated
 from statorhom.diagnose.refit_starts import Start, start_of
 from statorhom.diagnose.scan import starts as scan_starts
 from statorhom.diagnose.sharper import in_its_own_model
+from statorhom.diagnose.valleys import nearest_first
 from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
 
@@ -47,26 +48,24 @@ def with_lost_contact(
     best = found[0] if found else nothing(base)
     if max(best.adequacy_but_one, nothing(base).adequacy) > ADEQUATE:
         return []
-    own = (explained(r, counts) for c in arcs for r in _beside_typical(base, c))
+    refits = (_beside_typical(base, c) for c in arcs)
+    own = (explained(r, counts) for r in refits if r is not None)
     return [e for e in own if e.log_evidence > best.log_evidence]
 
 
-def _beside_typical(base: Refit, candidate: Candidate) -> Iterator[Refit]:
-    """The best optimum of an arc, in a model of its own; none where no winding will do."""
-    tried: list[Refit] = []
-    for sds in WINDINGS:
-        typical = _with_typical_winding(base, candidate, sds)
-        if typical is not None:
-            refits = (refitted(s.hypothesis, s.z) for s in _starts(typical, candidate))
-            tried += [r for r in refits if r is not None]
+def _beside_typical(base: Refit, candidate: Candidate) -> Refit | None:
+    """The best optimum of an arc, in a model of its own; None where no winding will do."""
+    typical = [_with_typical_winding(base, candidate, sds) for sds in WINDINGS]
+    starts = [s for t in typical if t is not None for s in _starts(t, candidate)]
+    tried = [r for s in starts if (r := refitted(s.hypothesis, s.z)) is not None]
     if not tried:
-        return
+        return None
     best = min(tried, key=lambda r: r.objective)
     for _ in range(ROUNDS):
         again = refitted(in_its_own_model(best), best.z)
         if again is not None and again.objective < best.objective:
             best = again
-    yield best
+    return best
 
 
 def _with_typical_winding(base: Refit, candidate: Candidate, sds: float) -> Refit | None:
@@ -85,30 +84,19 @@ def _with_typical_winding(base: Refit, candidate: Candidate, sds: float) -> Refi
 
 def _starts(typical: Refit, candidate: Candidate) -> list[Start]:
     """Arcs all around, the best of each width and ratio, and of these the best."""
-    begun = scan_starts(typical.hypothesis.study, candidate)[0]
-    found: list[tuple[float, Start]] = []
-    for values in product(*GRID.values()):
-        start = start_of(typical, candidate, _set(candidate, begun, dict(zip(GRID, values, strict=True))))
-        turned = [
-            (_objective(start, z), replace(start, z=z)) for z in _all_around(start, candidate, len(typical.z))
-        ]
-        found.append(min(turned, key=lambda pair: pair[0]))
-    return [start for _, start in sorted(found, key=lambda pair: pair[0])[:FOLLOWED]]
+    begun = start_of(typical, candidate, scan_starts(typical.hypothesis.study, candidate)[0])
+    shapes = [dict(zip(GRID, values, strict=True)) for values in product(*GRID.values())]
+    nearest = [nearest_first(begun.hypothesis, list(_all_around(begun, s)))[:1] for s in shapes]
+    best = nearest_first(begun.hypothesis, [z for found in nearest for z in found])
+    return [replace(begun, z=z) for z in best[:FOLLOWED]]
 
 
-def _all_around(start: Start, candidate: Candidate, constants: int) -> Iterator[np.ndarray]:
+def _all_around(start: Start, shape: dict[str, float]) -> Iterator[np.ndarray]:
+    """Coordinates with an arc of some width and ratio at every angle."""
+    parameters = start.hypothesis.candidates[-1].parameters
+    first = len(start.z) - len(parameters)
     for angle in 2 * np.pi * np.arange(PLACES) / PLACES:
-        yield np.r_[start.z[:constants], _set(candidate, start.z[constants:], {"angle_rad": float(angle)})]
-
-
-def _set(candidate: Candidate, z: np.ndarray, values: dict[str, float]) -> np.ndarray:
-    """Coordinates of an effect with some values given."""
-    pairs = zip(candidate.parameters, z, strict=True)
-    return np.array([p.internal(values[p.name]) if p.name in values else float(old) for p, old in pairs])
-
-
-def _objective(start: Start, z: np.ndarray) -> float:
-    try:
-        return refit_objective(start.hypothesis, z)
-    except (StatorhomError, KeyError):
-        return np.inf
+        z, values = start.z.copy(), {**shape, "angle_rad": float(angle)}
+        for place, p in enumerate(parameters, first):
+            z[place] = p.internal(values[p.name]) if p.name in values else z[place]
+        yield z

@@ -15,6 +15,7 @@ from statorhom.model.affine import AffineModel, Materials, hooke_coefficients
 from statorhom.model.blas_threads import one_blas_thread
 from statorhom.model.cyclic.half_pitch import half_pitches
 from statorhom.model.cyclic.modes import modes_of
+from statorhom.model.free_modes import total_mass
 from statorhom.model.harmonic import Harmonic, harmonic_spaces
 from statorhom.model.pitch_parts import pitch_parts
 from statorhom.model.radial_profile import RadialProfile, node_planes, radial_profile
@@ -137,7 +138,7 @@ class RingBasis:
         SolverError
             If a mass or stiffness is not definite.
         """
-        mass = sum(materials[r].density * v for r, v in self.model.volumes.items())
+        mass = total_mass(self.model, materials)
         with one_blas_thread():
             solved = [small_pairs(K, M) for K, M in matrices]
         values_of, vectors = zip(*solved, strict=True) if solved else ((), ())
