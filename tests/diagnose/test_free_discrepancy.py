@@ -10,7 +10,7 @@ import pytest
 from scipy.special import logsumexp
 from scipy.stats import multivariate_normal
 
-from statorhom.diagnose.feature import Feature
+from statorhom.diagnose.feature import LOST, Feature
 from statorhom.diagnose.free_discrepancy import AMPLITUDES, discrepancy_evidence
 from statorhom.diagnose.refit import Refit
 
@@ -69,3 +69,19 @@ def test_one_gross_error_costs_no_more_than_it_costs_an_effect() -> None:
     held = discrepancy_evidence(declared(errors))
     assert held > by_densities(errors) - 5
     assert np.isfinite(held)
+
+
+@pytest.mark.parametrize(
+    "feature",
+    [
+        Feature("loss", "t", (2, 0, 0), 9.0, 0.0, 1.0),
+        Feature("frequency", "t", None, LOST, 0.0, 1.0, lost=True),
+    ],
+)
+def test_what_no_discrepancy_is_of_costs_what_it_costs_the_declared_model(feature: Feature) -> None:
+    """A loss factor that a cable has doubled, and a line that no model has, are held down once and for all."""
+    fits = Feature("frequency", "t", (3, 0, 0), 0.0, 0.0, 1e-3)
+    hypothesis = SimpleNamespace(features=lambda _: [feature, fits], prior_weights=np.ones(1), missed=0.0)
+    objective = feature.residual**2
+    base: Refit[Any] = Refit(hypothesis, np.zeros(1), np.zeros((2, 1)), objective, objective)  # type: ignore[arg-type]
+    assert base.log_evidence - 3 < discrepancy_evidence(base) < base.log_evidence

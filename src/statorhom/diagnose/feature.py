@@ -46,19 +46,20 @@ class Feature:
     @property
     def residual(self) -> float:
         """In standard deviations, large ones held down."""
-        raw, most = self._deviation, MOST.get(self.kind)
+        raw, most = self.deviation, MOST.get(self.kind)
         return held_down(raw) if most is None else most * tanh(raw / most)
 
     @property
     def steepness(self) -> float:
         """Derivative of the residual by the misfit in standard deviations."""
-        raw, most = self._deviation, MOST.get(self.kind)
+        raw, most = self.deviation, MOST.get(self.kind)
         if most is not None:
             return 1.0 - tanh(raw / most) ** 2
         return KNEE / (KNEE + max(0.0, abs(raw) - LINEAR))
 
     @property
-    def _deviation(self) -> float:
+    def deviation(self) -> float:
+        """The same as it is."""
         return (self.measured - self.predicted) / self.sd
 
     @property

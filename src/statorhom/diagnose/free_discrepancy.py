@@ -25,8 +25,8 @@ FloatArray = npt.NDArray[np.float64]
 
 # relative to the frequency, or to λ: from what no test resolves to a tenth, every half of a decade equally likely
 AMPLITUDES = np.logspace(-5, -1, 9)
-# kinds whose discrepancies are alike: one cause that parts doublets may leave their means as they are
-ALIKE = (("frequency",), ("split",), ("shift",))
+# kinds, each with an amplitude of its own: one cause that parts doublets may leave their means as they are
+ALIKE = ("frequency", "split", "shift")
 LEAST_STEEPNESS = 1e-3
 
 
@@ -47,7 +47,7 @@ class _Linear:
     Parameters
     ----------
     features : n residuals.
-    deviations : (n,) in standard deviations; of modes that the model has not got, the penalty.
+    deviations : (n,) in standard deviations; where no discrepancy is thought of, the residuals as they count.
     jacobian : (n, constants) of these.
     z, prior_weights : optimum and its prior's precision.
     missed : as of the hypothesis.
@@ -64,8 +64,8 @@ class _Linear:
     def of(cls, base: Refit[AnyHypothesis]) -> _Linear:
         features = base.hypothesis.features(base.z)
         # what is far off is held down for the declared model alone: a discrepancy sees all of it
-        steepness = np.array([1.0 if f.lost else f.steepness for f in features])
-        deviations = [f.residual if f.lost else (f.measured - f.predicted) / f.sd for f in features]
+        deviations = [f.deviation if _may_be_off(f) else f.residual for f in features]
+        steepness = np.array([f.steepness if _may_be_off(f) else 1.0 for f in features])
         jacobian = base.jacobian / np.maximum(steepness, LEAST_STEEPNESS)[:, None]
         weights, missed = base.hypothesis.prior_weights, base.hypothesis.missed
         return cls(features, np.array(deviations), jacobian, base.z, weights, missed)
@@ -73,7 +73,9 @@ class _Linear:
     @property
     def _alike(self) -> list[FloatArray]:
         """1 / sd of every feature that a discrepancy is of, kind by kind."""
-        own = [[0.0 if f.lost or f.kind not in kinds else 1 / f.sd for f in self.features] for kinds in ALIKE]
+        own = [
+            [1 / f.sd if f.kind == kind and _may_be_off(f) else 0.0 for f in self.features] for kind in ALIKE
+        ]
         return [np.array(each) for each in own if any(each)]
 
     @property
@@ -94,6 +96,15 @@ class _Linear:
         gradient = J.T @ deviations + self.prior_weights * self.z
         step = -np.linalg.solve(information + np.diag(self.prior_weights), gradient)
         # one gross error is none of the discrepancies, and costs here what it costs an effect
-        rest, z = np.array([held_down(r) for r in deviations + J @ step]), self.z + step
+        left = deviations + J @ step
+        rest = np.array(
+            [held_down(r) if _may_be_off(f) else r for f, r in zip(self.features, left, strict=True)]
+        )
+        z = self.z + step
         objective = rest @ rest + self.prior_weights @ z**2 + self.missed
         return float(-0.5 * objective + np.sum(np.log(weights)) + log_volume(information, self.prior_weights))
+
+
+def _may_be_off(feature: Feature) -> bool:
+    """Whether a discrepancy is thought of: loss factors, shapes, densities and lost modes count as ever."""
+    return feature.kind in ALIKE and not feature.lost
