@@ -19,6 +19,28 @@ LOST, LOST_UNNAMED = 10.0, 4.0  # residual of a mode of a table that has no part
 
 
 @dataclass(frozen=True)
+class Silence:
+    """One line where a doublet has two: not resolved, or the other one was missed.
+
+    Parameters
+    ----------
+    split : predicted, relative.
+    width : split that shows one line alone, a standard deviation.
+    most : residual of a split that nobody overlooks: measurements leave lines out.
+    parts : 1 where a split has a size alone, 2 where it has an angle too.
+    """
+
+    split: float
+    width: float
+    most: float
+    parts: int
+
+    def residual(self, more: np.ndarray | float = 0.0) -> np.ndarray:
+        """In standard deviations, of the predicted split and another one (any shape) across it."""
+        return self.most * np.tanh(np.hypot(self.split, more) / (self.width * self.most))
+
+
+@dataclass(frozen=True)
 class Feature:
     """One residual.
 
@@ -32,6 +54,7 @@ class Feature:
     sd : of their difference.
     lost : whether the model has no such mode: the residual is a penalty.
     rows : labels of the measured modes that it is of; empty where it is of none, or they are named by the key alone.
+    silence : of a split of which a single line was measured.
     """
 
     kind: str
@@ -42,6 +65,7 @@ class Feature:
     sd: float
     lost: bool = False
     rows: tuple[str, ...] = ()
+    silence: Silence | None = None
 
     @property
     def residual(self) -> float:

@@ -13,7 +13,7 @@ from math import hypot, log, sqrt, tanh
 import numpy as np
 
 from statorhom.diagnose.assignment import Keys
-from statorhom.diagnose.feature import LOST, SINGLE, Feature
+from statorhom.diagnose.feature import LOST, SINGLE, Feature, Silence
 from statorhom.diagnose.lost_lines import lost_lines
 from statorhom.diagnose.measured import MeasuredSplit, MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
@@ -176,11 +176,13 @@ def _single(
     away = abs(predicted.split) / 4 if abs(predicted.split) > (row.loss_factor or 0.01) else 0.0
     log_f += away * tanh((measured - log_f) / (0.3 * away + 1e-9))
     width = UNRESOLVED * (row.loss_factor or 0.01)
-    most = 3.0 if test.recorded else 1.8  # tables leave modes out
-    unresolved = most * tanh(abs(split) / (width * most))
+    # tables leave modes out, and know no angles
+    most, parts = (3.0, 2) if test.recorded else (1.8, 1)
+    silence = Silence(abs(split), width, most, parts)
+    unresolved = float(silence.residual())
     return [
         Feature("frequency", test.name, predicted.key, measured, log_f, sd, rows=own_row),
-        Feature("split", test.name, predicted.key, 0.0, unresolved, 1.0, rows=own_row),
+        Feature("split", test.name, predicted.key, 0.0, unresolved, 1.0, rows=own_row, silence=silence),
     ]
 
 

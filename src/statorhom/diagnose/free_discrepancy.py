@@ -4,21 +4,24 @@ An effect that is not in the library looks like one that is: a mass on a spring 
 oval yoke. Each explains most of the misfit with a few parameters, and the rest is hardly more than noise. What such a
 name has to beat is a discrepancy that is drawn for every mode anew and explains nothing (physics.md §8; Brynjarsdóttir
 & O'Hagan 2014): frequencies, splits and shifts are off by normal deviates, and how large those usually are is not
-known. An effect that is really there says what each mode does, and a discrepancy pays for every one of them.
+known. An effect that is really there says what each mode does, and a discrepancy pays for every one of them: where it
+parts the lines of one doublet it parts those of the others too, and of these a single line was measured.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache, partial
 from itertools import product
 
 import numpy as np
 import numpy.typing as npt
 from scipy.special import logsumexp
+from scipy.stats import chi
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
-from statorhom.diagnose.feature import Feature, held_down
+from statorhom.diagnose.feature import Feature, Silence, held_down
 from statorhom.diagnose.refit import Refit, log_volume
 
 FloatArray = npt.NDArray[np.float64]
@@ -28,6 +31,7 @@ AMPLITUDES = np.logspace(-5, -1, 9)
 # kinds, each with an amplitude of its own: one cause that parts doublets may leave their means as they are
 ALIKE = ("frequency", "split", "shift")
 LEAST_STEEPNESS = 1e-3
+SIZES = (np.arange(50) + 0.5) / 50  # quantiles over which the splits of silent doublets are averaged
 
 
 def discrepancy_evidence(base: Refit[AnyHypothesis]) -> float:
@@ -37,7 +41,7 @@ def discrepancy_evidence(base: Refit[AnyHypothesis]) -> float:
     discrepancies; the evidence is the mean over those.
     """
     problem = _Linear.of(base)
-    return float(logsumexp([problem.log_evidence(w) for w in problem.weightings()])) - problem.log_count
+    return float(logsumexp([problem.log_evidence(a) for a in problem.amplitudes()])) - problem.log_count
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,40 +75,50 @@ class _Linear:
         return cls(features, np.array(deviations), jacobian, base.z, weights, missed)
 
     @property
-    def _alike(self) -> list[FloatArray]:
-        """1 / sd of every feature that a discrepancy is of, kind by kind."""
-        own = [
-            [1 / f.sd if f.kind == kind and _may_be_off(f) else 0.0 for f in self.features] for kind in ALIKE
-        ]
-        return [np.array(each) for each in own if any(each)]
+    def _kinds(self) -> list[str]:
+        """Kinds of which something was measured that a discrepancy is of."""
+        return [kind for kind in ALIKE if any(f.kind == kind for f in self.features if _may_be_off(f))]
 
     @property
     def log_count(self) -> float:
-        return len(self._alike) * float(np.log(len(AMPLITUDES)))
+        return len(self._kinds) * float(np.log(len(AMPLITUDES)))
 
-    def weightings(self) -> Iterator[FloatArray]:
-        """(n,) noise over noise and discrepancy, for every choice of amplitudes."""
-        alike = self._alike
-        for amplitudes in product(AMPLITUDES, repeat=len(alike)):
-            ratios = sum((a * each for a, each in zip(amplitudes, alike, strict=True)), np.zeros(1))
-            yield 1 / np.sqrt(1 + ratios**2) * np.ones(len(self.features))
+    def amplitudes(self) -> Iterator[Mapping[str, float]]:
+        """Every choice of the discrepancies' standard deviations, kind by kind."""
+        kinds = self._kinds
+        for chosen in product(AMPLITUDES, repeat=len(kinds)):
+            yield dict(zip(kinds, chosen, strict=True))
 
-    def log_evidence(self, weights: FloatArray) -> float:
+    def log_evidence(self, amplitudes: Mapping[str, float]) -> float:
         """ln Z at given discrepancies."""
+        off = [amplitudes[f.kind] / f.sd if _may_be_off(f) else 0.0 for f in self.features]
+        weights = 1 / np.hypot(1.0, off)  # noise over noise and discrepancy
         J, deviations = self.jacobian * weights[:, None], self.deviations * weights
         information = J.T @ J
         gradient = J.T @ deviations + self.prior_weights * self.z
         step = -np.linalg.solve(information + np.diag(self.prior_weights), gradient)
-        # one gross error is none of the discrepancies, and costs here what it costs an effect
         left = deviations + J @ step
-        rest = np.array(
-            [held_down(r) if _may_be_off(f) else r for f, r in zip(self.features, left, strict=True)]
-        )
         z = self.z + step
-        objective = rest @ rest + self.prior_weights @ z**2 + self.missed
+        objective = sum(map(partial(_cost, amplitudes), self.features, left)) + self.missed
+        objective += float(self.prior_weights @ z**2)
         return float(-0.5 * objective + np.sum(np.log(weights)) + log_volume(information, self.prior_weights))
 
 
+def _cost(amplitudes: Mapping[str, float], feature: Feature, left: float) -> float:
+    """-2 ln of what a residual makes of the likelihood."""
+    if feature.silence is not None:
+        return _silent_cost(feature.silence, amplitudes.get(feature.kind, 0.0))
+    # one gross error is none of the discrepancies, and costs here what it costs an effect
+    return float((held_down(left) if _may_be_off(feature) else left) ** 2)
+
+
+@lru_cache(maxsize=2**12)
+def _silent_cost(silence: Silence, amplitude: float) -> float:
+    """Of a doublet whose lines a discrepancy parts as it does others', though one alone was measured."""
+    parted = silence.residual(amplitude * chi.ppf(SIZES, silence.parts))
+    return float(-2 * np.log(np.mean(np.exp(-0.5 * parted**2))))
+
+
 def _may_be_off(feature: Feature) -> bool:
-    """Whether a discrepancy is thought of: loss factors, shapes, densities and lost modes count as ever."""
-    return feature.kind in ALIKE and not feature.lost
+    """Whether it is a number that a discrepancy moves: loss factors, shapes, densities and lost modes count as ever."""
+    return feature.kind in ALIKE and not feature.lost and feature.silence is None
