@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
 from small_stators import MATERIALS, stator_mesh
 
-from statorhom.model.affine import assemble
+from statorhom.model.affine import assemble, hooke_coefficients
+from statorhom.model.broken import grams
 from statorhom.model.broken.attachments import lump, springs
 from statorhom.model.broken.basis import SymmetricBasis, symmetric_basis
-from statorhom.model.broken.change import Attachment
+from statorhom.model.broken.change import Attachment, Change
+from statorhom.model.broken.pieces import stiffness_pieces
 from statorhom.model.broken.solve import BrokenModes, solve_broken
+from statorhom.model.broken.variations import wave
 from statorhom.model.supports import support_on
 from statorhom.model.surface import surface_points
 from statorhom.study.supports import LineSupport
@@ -32,17 +36,33 @@ def held(basis: SymmetricBasis, stiffness: float) -> Attachment:
     return springs(basis.mesh, support_on(basis.mesh, keys).points)
 
 
-def solved(basis: SymmetricBasis, *attachments: Attachment) -> BrokenModes:
-    return solve_broken(basis, attachments, tolerance=None)
+def solved(basis: SymmetricBasis, *changes: Change) -> BrokenModes:
+    return solve_broken(basis, changes, tolerance=None)
 
 
 def test_springs_at_known_points_give_the_same_as_new_ones(basis: SymmetricBasis) -> None:
     first, second = held(basis, 1e9), held(basis, 1e11)
     solved(basis, first)
     again = solved(basis, replace(first, stiffness=second.stiffness))
-    assert again.coupled.statics.loaded is solved(basis, first).coupled.statics.loaded
+    assert again.coupled.statics.to_units is solved(basis, first).coupled.statics.to_units
     anew = solved(replace(basis), second)
     np.testing.assert_allclose(again.eigenvalues, anew.eigenvalues, rtol=1e-10)
+
+
+def test_pieces_beside_springs_at_known_points_are_projected_once(
+    basis: SymmetricBasis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    core = stiffness_pieces(basis.mesh, {"lamination": hooke_coefficients(STACK["lamination"].hooke)})
+    oval = wave(basis.mesh, core, 0.9, harmonic=4, amplitude=0.02, inner=0.05)
+    first, second = held(basis, 1e9), held(basis, 1e11)
+    solved(basis, first, oval)
+    images = Mock(wraps=grams._images)
+    monkeypatch.setattr(grams, "_images", images)
+    again = solved(basis, replace(first, stiffness=second.stiffness), replace(oval, weights=2 * oval.weights))
+    images.assert_not_called()
+    anew = solved(replace(basis), second, replace(oval, weights=2 * oval.weights))
+    np.testing.assert_allclose(again.eigenvalues, anew.eigenvalues, rtol=1e-10)
+    images.assert_called()
 
 
 def test_surface_motion_is_that_of_the_full_shapes(basis: SymmetricBasis) -> None:

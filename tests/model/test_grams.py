@@ -18,22 +18,23 @@ def made(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """Groups whose products were made."""
     found: list[int] = []
 
-    def gram(group: np.ndarray, *_: Any) -> module.Gram:
+    def images(group: np.ndarray, _: Any) -> tuple[np.ndarray, None]:
         found.append(int(group[0]))
-        return ONE
+        return group, None
 
-    monkeypatch.setattr(module, "_gram", gram)
+    monkeypatch.setattr(module, "_images", images)
+    monkeypatch.setattr(module, "_gram", lambda *_: ONE)
     return found
 
 
 def ask(cache: module.GramCache, *groups: int) -> None:
     pieces: Any = PIECES
     for group in groups:
-        cache.gram(pieces, np.array([group]), WAVES, WAVES)
+        cache.grams(pieces, np.array([group]), [WAVES], WAVES)
 
 
 PIECES = SimpleNamespace(take=lambda group: group)
-WAVES: Any = SimpleNamespace()
+WAVES: Any = SimpleNamespace(shapes=np.zeros(9))
 
 
 def test_products_are_made_once(made: list[int]) -> None:
@@ -41,17 +42,21 @@ def test_products_are_made_once(made: list[int]) -> None:
     assert made == [1, 2]
 
 
-def test_the_oldest_make_room(made: list[int], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "KEPT_BYTES", 2 * ONE.size)
-    cache = module.GramCache()
+def test_the_oldest_make_room(made: list[int]) -> None:
+    cache = module.GramCache(2 * ONE.size)
     ask(cache, 1, 2, 3, 2, 3, 1)
     assert made == [1, 2, 3, 1]
     assert sum(gram.size for _, gram in cache.known.values()) == 2 * ONE.size
 
 
-def test_what_is_needed_now_is_kept_whatever_its_size(
-    made: list[int], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(module, "KEPT_BYTES", 1)
-    ask(module.GramCache(), 1, 1)
+def test_what_is_needed_now_is_kept_whatever_its_size(made: list[int]) -> None:
+    ask(module.GramCache(1), 1, 1)
+    assert made == [1]
+
+
+def test_images_of_the_columns_serve_all_rows(made: list[int]) -> None:
+    cache, others = module.GramCache(), SimpleNamespace(shapes=np.zeros(9))
+    pieces, rows = SimpleNamespace(take=lambda group: group), [WAVES, others]
+    for _ in range(2):
+        cache.grams(pieces, np.array([1]), rows, WAVES)  # type: ignore[arg-type]
     assert made == [1]

@@ -9,10 +9,9 @@ import numpy as np
 
 from statorhom.model.broken.basis import SymmetricBasis
 from statorhom.model.broken.change import Attachment, Change, PieceChange
-from statorhom.model.broken.grams import GramCache, project
+from statorhom.model.broken.grams import projections
 from statorhom.model.broken.pieces import Pieces
 from statorhom.model.broken.statics import Statics, statics
-from statorhom.model.broken.waves import Waves
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,15 +70,9 @@ def piece_matrices(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Weighted pieces between all coordinates (n, n), and between the probes and them."""
     waves, probes = basis.waves, basis.probes
-    inner = project(basis.grams, part, weights, waves, waves)
-    outer = project(basis.grams, part, weights, probes, waves)
+    inner, outer = projections(basis.grams, part, weights, [waves, probes], waves)
     if len(own):
-        columns, units = own.waves
-
-        def with_statics(rows: Waves) -> np.ndarray:
-            return np.asarray(project(GramCache(), part, weights, rows, columns) @ units)
-
-        mixed = with_statics(waves)
-        inner = np.block([[inner, mixed], [mixed.T, units.T @ with_statics(columns)]])
-        outer = np.hstack([outer, with_statics(probes)])
+        (mixed, probed), still = own.to_units.projected(part, weights, [waves, probes])
+        inner = np.block([[inner, mixed], [mixed.T, still]])
+        outer = np.hstack([outer, probed])
     return (inner + inner.T) / 2, outer

@@ -8,6 +8,7 @@ alike for the imaginary parts: of the slots only the sums of the weights times e
 from __future__ import annotations
 
 from collections import OrderedDict
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -16,6 +17,8 @@ from statorhom.model.broken.pieces import Pieces
 from statorhom.model.broken.waves import Waves
 
 KEPT_BYTES = 2**30  # of products that each basis keeps: those of a large one take 60 MB a group
+
+_Key = tuple[int, int, int, bytes]
 
 
 @dataclass(frozen=True)
@@ -33,23 +36,33 @@ class Gram:
 
 @dataclass(frozen=True)
 class GramCache:
-    """Products that were made before, the latest ones."""
+    """Products that were made before, the latest ones; those it was asked for live at least as long as the waves do.
 
-    known: OrderedDict[tuple[int, int, int, bytes], tuple[Pieces, Gram]] = field(default_factory=OrderedDict)
+    Parameters
+    ----------
+    most : bytes that are kept.
+    """
 
-    def gram(self, pieces: Pieces, group: np.ndarray, rows: Waves, columns: Waves) -> Gram:
-        """Products of the group (numbers of pieces)."""
-        key = (id(pieces), id(rows), id(columns), group.tobytes())
-        if key not in self.known:
-            # the pieces are kept too, so that their id stays theirs
-            self.known[key] = (pieces, _gram(pieces.take(group), rows, columns))
-            self._forget()
-        return self.known[key][1]
+    most: int = KEPT_BYTES
+    known: OrderedDict[_Key, tuple[Pieces, Gram]] = field(default_factory=OrderedDict)
+
+    def grams(self, pieces: Pieces, group: np.ndarray, rows: Sequence[Waves], columns: Waves) -> list[Gram]:
+        """Products of the group (numbers of pieces) between each of some rows and the columns."""
+        keys = [(id(pieces), id(r), id(columns), group.tobytes()) for r in rows]
+        lacking = [i for i, key in enumerate(keys) if key not in self.known]
+        if lacking:
+            dofs, images = _images(pieces.take(group), columns)
+            for i in lacking:
+                # the pieces are kept too, so that their id stays theirs
+                self.known[keys[i]] = (pieces, _gram(rows[i].shapes[dofs], images))
+        found = [self.known[key][1] for key in keys]
+        self._forget()
+        return found
 
     def _forget(self) -> None:
         """Drop the oldest, but never the one that is needed now."""
         size = sum(gram.size for _, gram in self.known.values())
-        while size > KEPT_BYTES and len(self.known) > 1:
+        while size > self.most and len(self.known) > 1:
             _, (_, oldest) = self.known.popitem(last=False)
             size -= oldest.size
 
@@ -61,27 +74,74 @@ def project(cache: GramCache, pieces: Pieces, weights: np.ndarray, rows: Waves, 
     ----------
     weights : (e, 2 N) per piece and half pitch.
     """
+    return projections(cache, pieces, weights, [rows], columns)[0]
+
+
+def projections(
+    cache: GramCache, pieces: Pieces, weights: np.ndarray, rows: Sequence[Waves], columns: Waves
+) -> list[np.ndarray]:
+    """The same for several rows: what the pieces make of the columns is asked for once."""
     used = np.flatnonzero(np.any(weights != 0.0, axis=1))
-    shape = (len(rows.order), len(columns.order))
-    same, twice = np.zeros(shape, dtype=complex), np.zeros(shape, dtype=complex)
-    N = rows.slots
-    difference = (columns.order - rows.order[:, None]) % N
-    total = (columns.order + rows.order[:, None]) % N
+    sums = [_Sums.of(r, columns) for r in rows]
     patterns, member = np.unique(weights[used], axis=0, return_inverse=True)
     for i, pattern in enumerate(patterns):
-        gram = cache.gram(pieces, used[member.ravel() == i], rows, columns)
-        straight, mirrored = (N * np.fft.ifft(pattern[side::2]) for side in (0, 1))
-        same += gram.hermitian * straight[difference] + np.conj(gram.hermitian) * mirrored[difference]
-        twice += gram.transposed * straight[total] + np.conj(gram.transposed) * mirrored[total]
-    return _families(same, twice, rows, columns)
+        found = cache.grams(pieces, used[member.ravel() == i], rows, columns)
+        for total, gram in zip(sums, found, strict=True):
+            total.add(gram, pattern)
+    return [_families(s.same, s.twice, r, columns) for s, r in zip(sums, rows, strict=True)]
 
 
-def _gram(pieces: Pieces, rows: Waves, columns: Waves) -> Gram:
+@dataclass(frozen=True, eq=False)
+class _Sums:
+    """Σ aᴴ k b and Σ aᵀ k b over all copies, of rows and columns, as they grow group by group.
+
+    Parameters
+    ----------
+    same, twice : (rows, columns) complex.
+    difference, total : of the columns' and the rows' harmonics.
+    slots : N.
+    """
+
+    same: np.ndarray
+    twice: np.ndarray
+    difference: np.ndarray
+    total: np.ndarray
+    slots: int
+
+    @classmethod
+    def of(cls, rows: Waves, columns: Waves) -> _Sums:
+        shape, N = (len(rows.order), len(columns.order)), rows.slots
+        difference = (columns.order - rows.order[:, None]) % N
+        total = (columns.order + rows.order[:, None]) % N
+        return cls(np.zeros(shape, dtype=complex), np.zeros(shape, dtype=complex), difference, total, N)
+
+    def add(self, gram: Gram, pattern: np.ndarray) -> None:
+        """A group of pieces with weights (2 N,)."""
+        straight, mirrored = (self.slots * np.fft.ifft(pattern[side::2]) for side in (0, 1))
+        own = gram.hermitian, gram.transposed
+        for sums, product, waves in zip(
+            (self.same, self.twice), own, (self.difference, self.total), strict=True
+        ):
+            sums += product * straight[waves] + np.conj(product) * mirrored[waves]
+
+
+def _images(pieces: Pieces, columns: Waves) -> tuple[np.ndarray, np.ndarray]:
+    """Displacements that pieces act on, and what they make of the columns there, (d, columns)."""
     dofs, local = np.unique(pieces.dofs, return_inverse=True)
     part = Pieces(local.reshape(pieces.dofs.shape), pieces.matrices, len(dofs))
-    images = part.matrix(np.ones(len(part))) @ columns.shapes[dofs]
-    left = rows.shapes[dofs].T
-    return Gram(np.conj(left) @ images, left @ images)
+    matrix, shapes = part.matrix(np.ones(len(part))), columns.shapes[dofs]
+    # a real matrix: half the work of a complex product
+    return dofs, matrix @ np.ascontiguousarray(shapes.real) + 1j * (
+        matrix @ np.ascontiguousarray(shapes.imag)
+    )
+
+
+def _gram(rows: np.ndarray, images: np.ndarray) -> Gram:
+    """Products of rows (d, r) with images (d, c), of which both kinds share the real ones."""
+    a, b = (np.ascontiguousarray(x.T) for x in (rows.real, rows.imag))
+    c, d = np.ascontiguousarray(images.real), np.ascontiguousarray(images.imag)
+    ac, bd, ad, bc = a @ c, b @ d, a @ d, b @ c
+    return Gram((ac + bd) + 1j * (ad - bc), (ac - bd) + 1j * (ad + bc))
 
 
 def _families(same: np.ndarray, twice: np.ndarray, rows: Waves, columns: Waves) -> np.ndarray:

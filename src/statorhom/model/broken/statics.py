@@ -8,7 +8,7 @@ solved once per problem (`statorhom.model.broken.sector`).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -16,40 +16,36 @@ from scipy.linalg import block_diag
 
 from statorhom.model.broken.basis import SymmetricBasis
 from statorhom.model.broken.change import Attachment
+from statorhom.model.broken.grams import GramCache, projections
+from statorhom.model.broken.pieces import Pieces
 from statorhom.model.broken.surface_answers import Answers
 from statorhom.model.broken.waves import Waves
 
 DEPENDENT = 1e-24  # squared part of the largest stiffness or mass below which a motion carries neither
 
 KEPT = 8  # places, and sets of them, whose responses are kept
+KEPT_BYTES = 2**27  # of pieces' products with the responses at one place
 
 Loads = Mapping[bool, np.ndarray]
 
 
 @dataclass(frozen=True, eq=False)
-class Statics:
-    """All attachments together, on the motions L that carry springs or masses.
+class StaticResponses:
+    """To unit loads on some motions: all that springs and masses of whatever size on them share.
 
     Parameters
     ----------
     basis : of the symmetric stator.
-    stiffness, mass : (a, a) of the attachments between the motions.
     loaded : (problems, s, 2, a) unit loads Lᵀ, as `SurfaceAnswers.loads` has them.
+    grams : products of pieces with the responses.
     """
 
     basis: SymmetricBasis
-    stiffness: np.ndarray
-    mass: np.ndarray
     loaded: np.ndarray
+    grams: GramCache = field(default_factory=lambda: GramCache(KEPT_BYTES), repr=False)
 
     def __len__(self) -> int:
-        return len(self.stiffness)
-
-    def with_(self, stiffness: np.ndarray, mass: np.ndarray) -> Statics:
-        """The same motions with other springs and masses; what depends on the motions alone is kept."""
-        found = replace(self, stiffness=stiffness, mass=mass)
-        found.__dict__.update({name: self.__dict__[name] for name in ("answers",) if name in self.__dict__})
-        return found
+        return int(self.loaded.shape[-1])
 
     @cached_property
     def answers(self) -> Answers:
@@ -91,6 +87,52 @@ class Statics:
         )
         return columns, np.tile(np.eye(count), (len(shapes), 1))
 
+    def projected(
+        self, pieces: Pieces, weights: np.ndarray, rows: Sequence[Waves]
+    ) -> tuple[list[np.ndarray], np.ndarray]:
+        """Weighted pieces between each of some rows of the basis and the responses, and between these (a, a)."""
+        columns, units = self.waves
+        *mixed, own = projections(self.grams, pieces, weights, [*rows, columns], columns)
+        return [part @ units for part in mixed], units.T @ own @ units
+
+
+@dataclass(frozen=True, eq=False)
+class Statics:
+    """All attachments together, on the motions L that carry springs or masses.
+
+    Parameters
+    ----------
+    to_units : responses to unit loads on the motions.
+    stiffness, mass : (a, a) of the attachments between the motions.
+    """
+
+    to_units: StaticResponses
+    stiffness: np.ndarray
+    mass: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.stiffness)
+
+    @property
+    def answers(self) -> Answers:
+        """To the unit loads."""
+        return self.to_units.answers
+
+    @property
+    def loads(self) -> tuple[Loads, ...]:
+        """Per problem: family → (s, a) unit loads on the coordinates that move the surface."""
+        return self.to_units.loads
+
+    @property
+    def responses(self) -> tuple[Loads, ...]:
+        """Per problem: family → (m, a) coordinates of Y."""
+        return self.to_units.responses
+
+    @property
+    def waves(self) -> tuple[Waves, np.ndarray]:
+        """The responses as columns of waves, and the coordinates (columns, a) of each response."""
+        return self.to_units.waves
+
 
 def statics(basis: SymmetricBasis, attachments: Sequence[Attachment]) -> Statics:
     """Static responses to the attachments' loads; those at the same points as lately are not made again."""
@@ -101,15 +143,15 @@ def statics(basis: SymmetricBasis, attachments: Sequence[Attachment]) -> Statics
         places = tuple(thing for a in attachments for thing in (a.points, a.rows))
         known = basis.kept_statics.get(tuple(map(id, places)))
         if known is not None:
-            return known[1].with_(stiffness, mass)
-        found = Statics(basis, stiffness, mass, _loads(basis, attachments, np.eye(len(stiffness))))
+            return Statics(known[1], stiffness, mass)
+        found = StaticResponses(basis, _loads(basis, attachments, np.eye(len(stiffness))))
         # the places are kept too, so that their ids stay theirs
         basis.kept_statics[tuple(map(id, places))] = (places, found)
         if len(basis.kept_statics) > KEPT:
             basis.kept_statics.popitem(last=False)
-        return found
+        return Statics(found, stiffness, mass)
     loads = _loads(basis, attachments, used)
-    return Statics(basis, used.T @ stiffness @ used, used.T @ mass @ used, loads)
+    return Statics(StaticResponses(basis, loads), used.T @ stiffness @ used, used.T @ mass @ used)
 
 
 def _carrying(stiffness: np.ndarray, mass: np.ndarray) -> np.ndarray | None:
