@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -11,7 +11,7 @@ import pytest
 
 from statorhom.diagnose import searched_starts as module
 from statorhom.diagnose import single_effects
-from statorhom.diagnose.searched_starts import of_later_steps
+from statorhom.diagnose.searched_starts import of_later_steps, searched_starts
 from statorhom.errors import IdentificationError
 
 NAMES = ("stack", "wound", "impregnated")
@@ -55,6 +55,28 @@ def test_steps_after_a_wrong_mass_of_the_first_are_sought_one_by_one(monkeypatch
     assert varied == [{2, 3}, {4, 5}]
     # the last search began where the one before it had ended
     np.testing.assert_allclose(optima[0].z, 0.1 + 0.2)
+
+
+def test_what_an_effect_is_added_to_stays_until_an_optimum_is_sought(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Another place of a lump costs a solution, and where it is, is known."""
+    varied: list[set[int]] = []
+
+    def wide_optima(_: Any, points: list[np.ndarray], most: int) -> list[Any]:
+        del most
+        varied.append(set(np.flatnonzero(np.ptp(points, axis=0)).tolist()))
+        return []
+
+    monkeypatch.setattr(module, "wide_optima", wide_optima)
+    monkeypatch.setattr(Model, "actions", lambda *_: [], raising=False)
+    model = found("stack").hypothesis
+    lump, shear = (SimpleNamespace(stage="stack", parameters=range(count)) for count in (2, 1))
+    limits = np.full(9, 5.0)
+    monkeypatch.setattr(Model, "limits", lambda _: (-limits, limits))
+    searched_starts(replace(model, candidates=(lump, shear)), np.zeros(9))
+    # the stack's own two constants, and the last effect's magnitude: not the lump's two
+    assert varied == [{0, 1, 8}]
 
 
 def test_after_the_last_step_nothing_is_left_to_be_sought(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,13 +10,13 @@ import pytest
 from small_stators import MATERIALS, stator_mesh
 
 from statorhom.model.affine import assemble, hooke_coefficients
-from statorhom.model.broken import grams
 from statorhom.model.broken.attachments import lump, springs
 from statorhom.model.broken.basis import SymmetricBasis, symmetric_basis
 from statorhom.model.broken.change import Attachment, Change
 from statorhom.model.broken.pieces import stiffness_pieces
 from statorhom.model.broken.solve import BrokenModes, solve_broken
 from statorhom.model.broken.variations import wave
+from statorhom.model.broken.waves import Waves
 from statorhom.model.supports import support_on
 from statorhom.model.surface import surface_points
 from statorhom.study.supports import LineSupport
@@ -56,8 +56,8 @@ def test_pieces_beside_springs_at_known_points_are_projected_once(
     oval = wave(basis.mesh, core, 0.9, harmonic=4, amplitude=0.02, inner=0.05)
     first, second = held(basis, 1e9), held(basis, 1e11)
     solved(basis, first, oval)
-    images = Mock(wraps=grams._images)
-    monkeypatch.setattr(grams, "_images", images)
+    images = Mock(wraps=Waves.in_copies)
+    monkeypatch.setattr(Waves, "in_copies", lambda *arguments: images(*arguments))
     again = solved(basis, replace(first, stiffness=second.stiffness), replace(oval, weights=2 * oval.weights))
     images.assert_not_called()
     anew = solved(replace(basis), second, replace(oval, weights=2 * oval.weights))

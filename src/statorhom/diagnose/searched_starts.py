@@ -24,7 +24,8 @@ def searched_starts(hypothesis: Hypothesis, z: np.ndarray, seed: int = 0) -> lis
     Parameters
     ----------
     hypothesis : with the effect as its last one.
-    z : all coordinates; the constants of other steps stay there until an optimum is sought.
+    z : all coordinates; the constants of other steps and what the effect is added to stay there until an optimum is
+        sought.
     seed : of the points.
     """
     candidate = hypothesis.candidates[-1]
@@ -34,7 +35,8 @@ def searched_starts(hypothesis: Hypothesis, z: np.ndarray, seed: int = 0) -> lis
     if not places:
         return []
     low, high = hypothesis.limits()
-    points = trials_around(z, [*places, *range(len(constants), len(z))], seed)
+    # what the effect is added to is known, and where it breaks the symmetry another place of it costs a solution
+    points = trials_around(z, [*places, *range(len(z) - len(candidate.parameters), len(z))], seed)
     if any(action.supports for action in hypothesis.actions(z)):
         points = _with_few_supports(points, len(constants))
     try:

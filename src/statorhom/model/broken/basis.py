@@ -63,10 +63,10 @@ class SymmetricBasis:
     softest: tuple[tuple[Pieces, np.ndarray], ...] = ()
     added: np.ndarray | None = None
     grams: GramCache = field(default_factory=GramCache, repr=False, compare=False)
-    kept_motions: OrderedDict[tuple[int, int], Any] = field(
+    kept_motions: OrderedDict[bytes, Any] = field(
         default_factory=OrderedDict, init=False, repr=False, compare=False
     )
-    kept_statics: OrderedDict[tuple[int, ...], Any] = field(
+    kept_statics: OrderedDict[tuple[bytes, ...], Any] = field(
         default_factory=OrderedDict, init=False, repr=False, compare=False
     )
 

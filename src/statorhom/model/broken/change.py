@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -30,6 +31,13 @@ class Attachment:
     def __post_init__(self) -> None:
         for array in (self.rows, self.stiffness, self.mass):
             array.setflags(write=False)
+
+    @cached_property
+    def place(self) -> bytes:
+        """The same for all that act on the same motions of the same mesh, however stiff or heavy."""
+        matrix, points = self.points.matrix, self.points
+        parts = (matrix.indptr, matrix.indices, matrix.data, points.pitch, points.mirrored, self.rows)
+        return b"".join(part.tobytes() for part in parts)
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,7 @@ solved once per problem (`statorhom.model.broken.sector`).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -16,7 +16,7 @@ from scipy.linalg import block_diag
 
 from statorhom.model.broken.basis import SymmetricBasis
 from statorhom.model.broken.change import Attachment
-from statorhom.model.broken.grams import GramCache, projections
+from statorhom.model.broken.copies import MovedCopies
 from statorhom.model.broken.pieces import Pieces
 from statorhom.model.broken.surface_answers import Answers
 from statorhom.model.broken.waves import Waves
@@ -24,7 +24,6 @@ from statorhom.model.broken.waves import Waves
 DEPENDENT = 1e-24  # squared part of the largest stiffness or mass below which a motion carries neither
 
 KEPT = 8  # places, and sets of them, whose responses are kept
-KEPT_BYTES = 2**27  # of pieces' products with the responses at one place
 
 Loads = Mapping[bool, np.ndarray]
 
@@ -37,12 +36,10 @@ class StaticResponses:
     ----------
     basis : of the symmetric stator.
     loaded : (problems, s, 2, a) unit loads Lᵀ, as `SurfaceAnswers.loads` has them.
-    grams : products of pieces with the responses.
     """
 
     basis: SymmetricBasis
     loaded: np.ndarray
-    grams: GramCache = field(default_factory=lambda: GramCache(KEPT_BYTES), repr=False)
 
     def __len__(self) -> int:
         return int(self.loaded.shape[-1])
@@ -87,13 +84,18 @@ class StaticResponses:
         )
         return columns, np.tile(np.eye(count), (len(shapes), 1))
 
+    @cached_property
+    def moved(self) -> MovedCopies:
+        """The responses in all copies."""
+        return MovedCopies(*self.waves)
+
     def projected(
         self, pieces: Pieces, weights: np.ndarray, rows: Sequence[Waves]
     ) -> tuple[list[np.ndarray], np.ndarray]:
-        """Weighted pieces between each of some rows of the basis and the responses, and between these (a, a)."""
+        """Weighted pieces between each of some rows (coordinates, a) and the responses, and between these (a, a)."""
+        dofs, forces = self.moved.forces(pieces, weights)
         columns, units = self.waves
-        *mixed, own = projections(self.grams, pieces, weights, [*rows, columns], columns)
-        return [part @ units for part in mixed], units.T @ own @ units
+        return [each.work(dofs, forces) for each in rows], units.T @ columns.work(dofs, forces)
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,16 +142,15 @@ def statics(basis: SymmetricBasis, attachments: Sequence[Attachment]) -> Statics
     mass = block_diag(*[a.mass for a in attachments]) if attachments else np.zeros((0, 0))
     used = _carrying(stiffness, mass)
     if used is None:
-        places = tuple(thing for a in attachments for thing in (a.points, a.rows))
-        known = basis.kept_statics.get(tuple(map(id, places)))
-        if known is not None:
-            return Statics(known[1], stiffness, mass)
-        found = StaticResponses(basis, _loads(basis, attachments, np.eye(len(stiffness))))
-        # the places are kept too, so that their ids stay theirs
-        basis.kept_statics[tuple(map(id, places))] = (places, found)
-        if len(basis.kept_statics) > KEPT:
-            basis.kept_statics.popitem(last=False)
-        return Statics(found, stiffness, mass)
+        places = tuple(a.place for a in attachments)
+        if places not in basis.kept_statics:
+            basis.kept_statics[places] = StaticResponses(
+                basis, _loads(basis, attachments, np.eye(len(stiffness)))
+            )
+            if len(basis.kept_statics) > KEPT:
+                basis.kept_statics.popitem(last=False)
+        basis.kept_statics.move_to_end(places)
+        return Statics(basis.kept_statics[places], stiffness, mass)
     loads = _loads(basis, attachments, used)
     return Statics(StaticResponses(basis, loads), used.T @ stiffness @ used, used.T @ mass @ used)
 
@@ -170,16 +171,12 @@ def _motion(basis: SymmetricBasis, a: Attachment) -> np.ndarray:
 
     Those of the latest places are kept: a support's springs stay where they are when a lump moves.
     """
-    known = basis.kept_motions.get((id(a.points), id(a.rows)))
-    if known is not None:
-        basis.kept_motions.move_to_end((id(a.points), id(a.rows)))
-        return np.asarray(known[1])
-    found = basis.surface.motion(a)
-    # the places are kept too, so that their ids stay theirs
-    basis.kept_motions[id(a.points), id(a.rows)] = ((a.points, a.rows), found)
-    if len(basis.kept_motions) > KEPT:
-        basis.kept_motions.popitem(last=False)
-    return found
+    if a.place not in basis.kept_motions:
+        basis.kept_motions[a.place] = basis.surface.motion(a)
+        if len(basis.kept_motions) > KEPT:
+            basis.kept_motions.popitem(last=False)
+    basis.kept_motions.move_to_end(a.place)
+    return np.asarray(basis.kept_motions[a.place])
 
 
 def _loads(basis: SymmetricBasis, attachments: Sequence[Attachment], used: np.ndarray) -> np.ndarray:

@@ -72,9 +72,33 @@ class Waves:
     def in_copies(self, dofs: np.ndarray, coordinates: np.ndarray) -> np.ndarray:
         """Motion (2 N, d, t) of some displacements in the axes of every half pitch."""
         weights = self.spread(coordinates)
-        turned = self.phases[:, :, None] * weights
         local = self.shapes[dofs]
         motion = np.empty((2 * self.slots, len(dofs), coordinates.shape[1]))
-        motion[0::2] = (local @ turned).real
-        motion[1::2] = (np.conj(local) @ turned).real
+        motion[0::2] = self._turned(local, weights)
+        motion[1::2] = self._turned(np.conj(local), weights)
         return motion
+
+    def _turned(self, local: np.ndarray, weights: np.ndarray) -> np.ndarray:
+        """Re(Σ c û e^{i k h α}) of all pitches k, (N, d, t)."""
+        N = self.slots
+        spectrum = np.zeros((N // 2 + 1, len(local), weights.shape[1]), dtype=complex)
+        for order, own in self._of_order.items():
+            # the transform counts these two harmonics once, others with their conjugate
+            factor = N if order in (0, N / 2) else N / 2
+            spectrum[order] = factor * (local[:, own] @ weights[own])
+        return np.fft.irfft(spectrum, N, axis=0)
+
+    def work(self, dofs: np.ndarray, forces: np.ndarray) -> np.ndarray:
+        """Work (coordinates, t) of forces (2 N, d, t) on some displacements in the axes of every half pitch."""
+        # Σ e^{i k h α} F of real forces
+        straight, mirrored = (np.conj(np.fft.rfft(forces[side::2], axis=0)) for side in (0, 1))
+        rows = np.empty((forces.shape[2], len(self.order)), dtype=complex)
+        for order, own in self._of_order.items():
+            local = self.shapes[np.ix_(dofs, own)]
+            rows[:, own] = straight[order].T @ local + mirrored[order].T @ np.conj(local)
+        return self.families(rows).T
+
+    @cached_property
+    def _of_order(self) -> dict[int, np.ndarray]:
+        """Harmonic → numbers of its columns."""
+        return {int(order): np.flatnonzero(self.order == order) for order in np.unique(self.order)}
