@@ -22,7 +22,7 @@ from statorhom.model.stator_mode import RIGID_HZ, VISIBLE, StatorMode
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """What is seen of a family's modes.
+    """What is seen of a family's modes in the band.
 
     Parameters
     ----------
@@ -34,8 +34,8 @@ class Surface:
     amplitudes: np.ndarray
 
     def shows(self, number: int, mode: StatorMode) -> bool:
-        """Whether a mode looks like one of the even contact."""
-        return mode.order == self.order[number]
+        """Whether a mode looks like one of the even contact; above the band nobody looks."""
+        return number >= len(self.order) or bool(mode.order == self.order[number])
 
 
 def surface(even: RingModes, family: Family, highest_hz: float) -> Surface:
