@@ -116,7 +116,8 @@ def diagnose(work: Work, case: BlindCase) -> str | None:
     state = {
         "seconds": seconds,
         "exit_code": code,
-        "message": message[0] if code and message else "",
+        # the same wherever it was run
+        "message": message[0].replace(f"{work.folder}/", "") if code and message else "",
         "commit": commit(),
     }
     write_text(folder / "run.json", json.dumps(state) + "\n")
