@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from statorhom.model.broken.pieces import Pieces
+from statorhom.model.broken.pieces import Pieces, weighted_alike
 from statorhom.model.broken.waves import Waves
 
 KEPT_BYTES = 2**27  # of the images of one set of motions
@@ -41,12 +41,10 @@ class MovedCopies:
         ----------
         weights : (e, 2 N) per piece and half pitch.
         """
-        used = np.flatnonzero(np.any(weights != 0.0, axis=1))
-        dofs = np.unique(pieces.dofs[used])
+        dofs = np.unique(pieces.dofs[np.any(weights != 0.0, axis=1)])
         total = np.zeros((weights.shape[1], len(dofs), self.coordinates.shape[1]))
-        patterns, member = np.unique(weights[used], axis=0, return_inverse=True)
-        for i, pattern in enumerate(patterns):
-            own, images = self._images(pieces, used[member.ravel() == i])
+        for group, pattern in weighted_alike(weights):
+            own, images = self._images(pieces, group)
             total[:, np.searchsorted(dofs, own)] += pattern[:, None, None] * images
         return dofs, total
 
@@ -62,8 +60,7 @@ class MovedCopies:
         return dofs, images
 
     def _made(self, pieces: Pieces) -> tuple[np.ndarray, np.ndarray]:
-        dofs, local = np.unique(pieces.dofs, return_inverse=True)
-        part = Pieces(local.reshape(pieces.dofs.shape), pieces.matrices, len(dofs))
+        dofs, part = pieces.alone()
         motion = self.columns.in_copies(dofs, self.coordinates)
         side_by_side = np.ascontiguousarray(np.moveaxis(motion, 1, 0)).reshape(len(dofs), -1)
         images = part.matrix(np.ones(len(part))) @ side_by_side

@@ -111,8 +111,7 @@ def _applied(
     basis: SymmetricBasis, coupled: Coupled, pieces: Pieces, weights: np.ndarray, x: np.ndarray
 ) -> np.ndarray:
     """Weighted pieces times a motion, on their displacements in every copy, (2 N, d, modes)."""
-    dofs, local = np.unique(pieces.dofs, return_inverse=True)
-    part = Pieces(local.reshape(pieces.dofs.shape), pieces.matrices, len(dofs))
+    dofs, part = pieces.alone()
     size = len(basis.values)
     motion = basis.waves.in_copies(dofs, x[:size])
     if len(coupled.statics):

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from statorhom.model.broken.pieces import Pieces
+from statorhom.model.broken.pieces import Pieces, weighted_alike
 from statorhom.model.broken.waves import Waves
 
 KEPT_BYTES = 2**30  # of products that each basis keeps: those of a large one take 60 MB a group
@@ -36,7 +36,7 @@ class Gram:
 
 @dataclass(frozen=True)
 class GramCache:
-    """Products that were made before, the latest ones; those it was asked for live at least as long as the waves do.
+    """Products that were made before, the latest ones; whoever keeps them keeps the waves as well.
 
     Parameters
     ----------
@@ -81,11 +81,9 @@ def projections(
     cache: GramCache, pieces: Pieces, weights: np.ndarray, rows: Sequence[Waves], columns: Waves
 ) -> list[np.ndarray]:
     """The same for several rows: what the pieces make of the columns is asked for once."""
-    used = np.flatnonzero(np.any(weights != 0.0, axis=1))
     sums = [_Sums.of(r, columns) for r in rows]
-    patterns, member = np.unique(weights[used], axis=0, return_inverse=True)
-    for i, pattern in enumerate(patterns):
-        found = cache.grams(pieces, used[member.ravel() == i], rows, columns)
+    for group, pattern in weighted_alike(weights):
+        found = cache.grams(pieces, group, rows, columns)
         for total, gram in zip(sums, found, strict=True):
             total.add(gram, pattern)
     return [_families(s.same, s.twice, r, columns) for s, r in zip(sums, rows, strict=True)]
@@ -127,8 +125,7 @@ class _Sums:
 
 def _images(pieces: Pieces, columns: Waves) -> tuple[np.ndarray, np.ndarray]:
     """Displacements that pieces act on, and what they make of the columns there, (d, columns)."""
-    dofs, local = np.unique(pieces.dofs, return_inverse=True)
-    part = Pieces(local.reshape(pieces.dofs.shape), pieces.matrices, len(dofs))
+    dofs, part = pieces.alone()
     matrix, shapes = part.matrix(np.ones(len(part))), columns.shapes[dofs]
     # a real matrix: half the work of a complex product
     return dofs, matrix @ np.ascontiguousarray(shapes.real) + 1j * (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -45,6 +45,24 @@ class Pieces:
     def take(self, numbers: np.ndarray) -> Pieces:
         """Some of the pieces."""
         return Pieces(self.dofs[numbers], self.matrices[numbers], self.size)
+
+    def alone(self) -> tuple[np.ndarray, Pieces]:
+        """Displacements (d,) that they act on, and the pieces between these alone."""
+        dofs, local = np.unique(self.dofs, return_inverse=True)
+        return dofs, Pieces(local.reshape(self.dofs.shape), self.matrices, len(dofs))
+
+
+def weighted_alike(weights: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Numbers of pieces that have the same weights in all copies, and these (2 N,); without those that stay.
+
+    Parameters
+    ----------
+    weights : (e, 2 N) per piece and half pitch.
+    """
+    used = np.flatnonzero(np.any(weights != 0.0, axis=1))
+    patterns, member = np.unique(weights[used], axis=0, return_inverse=True)
+    for i, pattern in enumerate(patterns):
+        yield used[member.ravel() == i], pattern
 
 
 def stiffness_pieces(mesh: HalfPitchMesh, hooke: Mapping[str, np.ndarray]) -> Pieces:
