@@ -8,8 +8,6 @@ from functools import cached_property
 
 import numpy as np
 
-from statorhom.conceal.arc_basis import with_lost_contacts
-from statorhom.conceal.breaks import LostContact
 from statorhom.conceal.truth import TrueStage
 from statorhom.geometry.stator import StatorGeometry
 from statorhom.materials.hooke import Hooke
@@ -19,13 +17,12 @@ from statorhom.model.broken.basis import SymmetricBasis, symmetric_basis
 from statorhom.model.broken.interface import Contact, contact, split
 from statorhom.model.broken.pieces import Pieces, mass_pieces, stiffness_pieces
 from statorhom.model.free_modes import FreeProblem, problem_at
-from statorhom.physics.action import Joint
 
 # every division of the section that the fit leaves at one cell has two here, graded towards the tooth roots
 STACK_MESH = graded()
 # with a winding in the slots the corners are less sharp, and the mesh is twice as long
 WOUND_MESH = graded(slot=1)
-# parts that may rattle have so many local shapes that a finer mesh takes many minutes and gigabytes
+# parts that may rattle have so many local shapes that a finer mesh takes minutes and ten gigabytes
 CONTACT_MESH = graded(tooth=1, slot=1, radial=3, yoke=3)
 # band over the lowest frequency of order 2: eight names (r, n) of a stack, some doublets of a winding's dense modes
 STACK_REACH, WOUND_REACH, CONTACT_REACH = 5.2, 3.2, 2.4
@@ -43,7 +40,6 @@ class StageGround:
     contact : joint that is not rigid.
     elliptic_hz : lowest frequency of order 2, about.
     highest_hz : upper end of the band.
-    lost : arcs like those over which the joint is lost, around θ = 0.
     """
 
     model: AffineModel
@@ -51,7 +47,6 @@ class StageGround:
     contact: Contact | None
     elliptic_hz: float
     highest_hz: float
-    lost: tuple[Joint, ...] = ()
     _own: dict[str, Pieces] = field(default_factory=dict, init=False, repr=False)
 
     @property
@@ -63,8 +58,7 @@ class StageGround:
     def basis(self) -> SymmetricBasis:
         """Symmetric modes."""
         joint = None if self.contact is None else self.contact.matrix
-        own = symmetric_basis(self.model, self.materials, self.highest_hz, margin=MARGIN, contact=joint)
-        return with_lost_contacts(own, self.model, self.materials, self.lost) if self.lost else own
+        return symmetric_basis(self.model, self.materials, self.highest_hz, margin=MARGIN, contact=joint)
 
     def pieces(self, region: str, material: Material | None = None) -> Pieces:
         """Stiffness of a region's elements; with a material, what changing to it adds."""
@@ -119,32 +113,17 @@ def stage_ground(
         If the geometry does not allow the step.
     """
     mesh = mesh_step(geometry.step(stage.kinds), density or truth_mesh(stage))
-    joint: Contact | None = None
-    lost: tuple[Joint, ...] = ()
+    joint = None
     if stage.contact is not None:
         law = stage.contact
         regions = tuple(region for region in law.regions if region in mesh.regions)
         mesh = split(mesh, regions)
         joint = contact(mesh, regions, law.normal, law.tangential)
-        intact = Joint(regions, law.normal, law.tangential)
-        arcs = [b for b in stage.breaks if isinstance(b, LostContact)]
-        lost = tuple(like for arc in arcs for like in arcs_like(arc, intact, mesh.slots))
     model = assemble(mesh)
     materials = {region: stage.materials[region].material for region in mesh.regions}
     elliptic = _elliptic_hz(problem_at(model, materials), joint)
     highest = float(np.ceil(_reach(stage) * elliptic / 100.0) * 100.0)
-    return StageGround(model, materials, joint, elliptic, highest, lost)
-
-
-def arcs_like(lost: LostContact, intact: Joint, slots: int) -> list[Joint]:
-    """Arcs around θ = 0 that cover a half pitch less, as many and one more.
-
-    Those that are covered in part hold on: how many are lost depends on where an arc begins.
-    """
-    half = np.pi / slots
-    count = int((lost.end - lost.start) / half)
-    counts = [n for n in (count - 1, count, count + 1) if 0 < n < 2 * slots]
-    return [replace(intact, arc=(0.0, n * half), ratio=lost.ratio) for n in counts]
+    return StageGround(model, materials, joint, elliptic, highest)
 
 
 def _elliptic_hz(problem: FreeProblem, joint: Contact | None) -> float:

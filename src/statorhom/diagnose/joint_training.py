@@ -32,27 +32,14 @@ def with_arcs(
     materials : at which the arcs are solved.
     trainings : arcs around θ = 0, all in the same intact contact.
     """
+    unit = pieces[0].matrix(np.ones(len(pieces[0]))), pieces[1].matrix(np.ones(len(pieces[1])))
     known = {p.space.kind: p for p in ring.problems}
     profile, terms = radial_profile(ring.model.mesh), affine_terms(ring.model)
-    arcs = arcs_around(ring, pieces, materials, trainings[0])
+    begun = with_local_fields(ring, materials, sp.csr_array(unit[0] + unit[1]))
+    arcs = Arcs(begun, pieces, unit, materials, trainings[0])
     problems = []
     for own, part in zip(arcs.problems, arcs.parts(trainings), strict=True):
         old = known.get(own.space.kind, unsolved(own.space))
         more = own.joined(old.basis, part, PARTS)[:, old.basis.shape[1] :]
         problems.append(grown(old, more, terms, profile))
     return replace(ring, problems=tuple(problems))
-
-
-def arcs_around(ring: RingBasis, pieces: tuple[Pieces, Pieces], materials: Materials, usual: Joint) -> Arcs:
-    """Arcs over which a contact is lost, and the bases that their solutions begin with.
-
-    Parameters
-    ----------
-    ring : on a split mesh, its modes at several even contacts.
-    pieces : of the contact, normal and tangential, per unit stiffness (m²).
-    materials : at which the arcs are solved.
-    usual : the contact outside the arcs.
-    """
-    unit = pieces[0].matrix(np.ones(len(pieces[0]))), pieces[1].matrix(np.ones(len(pieces[1])))
-    begun = with_local_fields(ring, materials, sp.csr_array(unit[0] + unit[1]))
-    return Arcs(begun, pieces, unit, materials, usual)
