@@ -13,7 +13,7 @@ from statorhom.diagnose.ring_basis import ring_basis
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.identify.model_error import ModelError
 from statorhom.mesh import uniform
-from statorhom.model.affine import assemble
+from statorhom.model.affine import Material, assemble
 from statorhom.model.broken.attachments import footed_lump, point_springs
 from statorhom.model.broken.variations import strip, wave
 from statorhom.model.convergence import ModeKey, mode_keys
@@ -66,6 +66,18 @@ def test_material_slopes_are_those_of_the_full_model(stage: StageModel) -> None:
             assert float(slope @ (vectors[1] - vectors[0])) == pytest.approx(full, rel=0.05, abs=2e-6)
             checked += 1
     assert checked >= 5
+
+
+def test_what_is_known_of_some_problems_is_not_solved_again(stage: StageModel) -> None:
+    materials = {r: Material(m.hooke, 1.01 * m.density) for r, m in stage.reference.items()}
+    one, other = sorted({mode.problem for mode in stage.reference_keys.values()})[:2]
+    part = stage.solve(materials, frozenset({one}))
+    assert {mode.problem for mode in part.modes} == {one}
+    assert stage.solve(materials, frozenset({one})) is part
+    both = stage.solve(materials, frozenset({other}))
+    assert {mode.problem for mode in both.modes} == {one, other}
+    assert [mode for mode in both.modes if mode.problem == one] == list(part.modes)
+    assert stage.solve(materials, frozenset({one})) is both
 
 
 def antinode(stage: StageModel, key: ModeKey, z: float) -> float:

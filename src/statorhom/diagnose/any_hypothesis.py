@@ -18,6 +18,7 @@ import numpy.typing as npt
 from statorhom.diagnose.constants import Constants
 from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.memory import Memory
 from statorhom.model.convergence import ModeKey
 from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
@@ -97,6 +98,11 @@ class AnyHypothesis(ABC):
         """What other hypotheses refer to as well (`statorhom.diagnose.side_by_side`)."""
         study = self.study
         return study, study.files, study.constants, *study.stages, *study.effects, *self.candidates
+
+    @property
+    def memories(self) -> Sequence[Memory]:
+        """Of what is dear and belongs to its models."""
+        return ()
 
     @cached_property
     def parameters(self) -> tuple[tuple[int, int], ...]:

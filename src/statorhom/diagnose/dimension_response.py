@@ -8,7 +8,6 @@ when that is first asked for. The weights stay as typed: densities follow the vo
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import lru_cache
 
 import numpy as np
 from scipy.linalg import eigh
@@ -89,8 +88,17 @@ def _scaled(study: StudyModel, name: str) -> float:
     return abs(scaled) / number
 
 
-@lru_cache(maxsize=256)
 def _slopes(study: StudyModel, stage: StageModel, name: str) -> Mapping[ModeKey, float]:
+    """Coefficients of ln(dimension) in ln f."""
+    return stage.memory.once(("slopes", name), lambda: _made_slopes(study, stage, name))
+
+
+def _bends(study: StudyModel, stage: StageModel, name: str) -> Mapping[ModeKey, tuple[float, float]]:
+    """Coefficients of its square and its cube."""
+    return stage.memory.once(("bends", name), lambda: _made_bends(study, stage, name))
+
+
+def _made_slopes(study: StudyModel, stage: StageModel, name: str) -> dict[ModeKey, float]:
     try:
         # the Ritz values' own errors, of second order, cancel
         step = STEP * _scaled(study, name)
@@ -100,9 +108,7 @@ def _slopes(study: StudyModel, stage: StageModel, name: str) -> Mapping[ModeKey,
     return {key: (high[key] - low[key]) / (2 * step) for key in low.keys() & high.keys()}
 
 
-@lru_cache(maxsize=256)
-def _bends(study: StudyModel, stage: StageModel, name: str) -> Mapping[ModeKey, tuple[float, float]]:
-    """Coefficients of the square and the cube of ln(dimension) in ln f."""
+def _made_bends(study: StudyModel, stage: StageModel, name: str) -> dict[ModeKey, tuple[float, float]]:
     slopes = _slopes(study, stage, name)
     try:
         far = FAR * _scaled(study, name)

@@ -7,7 +7,7 @@ two of them come near each other they exchange their shapes; then the name is wh
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping, Set
 
 from statorhom.model.convergence import ModeKey, mode_keys
 from statorhom.model.stator_mode import StatorMode
@@ -18,6 +18,16 @@ Names = Mapping[tuple[int, int], ModeKey]  # of modes by `StatorMode.place`
 def names_of(modes: Mapping[ModeKey, StatorMode]) -> Names:
     """The names that modes have, by their places."""
     return {mode.place: key for key, mode in modes.items()}
+
+
+def problems_of(names: Names, keys: Container[ModeKey | None]) -> frozenset[int]:
+    """The harmonic problems of modes with some names."""
+    return frozenset(problem for (problem, _), key in names.items() if key in keys)
+
+
+def of_problems(names: Names, problems: Set[int]) -> Names:
+    """The names of the modes of some harmonic problems; others are followed by themselves."""
+    return {place: key for place, key in names.items() if place[0] in problems}
 
 
 def named(modes: Iterable[StatorMode], names: Names | None) -> dict[ModeKey, StatorMode]:

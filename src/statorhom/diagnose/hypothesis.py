@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import cast
 
 import numpy as np
@@ -24,7 +25,7 @@ from statorhom.diagnose.damping import (
 from statorhom.diagnose.density_features import density_features
 from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.features import free_features, loading, shift_features, with_rows
-from statorhom.diagnose.followed_modes import Names, names_of
+from statorhom.diagnose.followed_modes import Names, names_of, of_problems, problems_of
 from statorhom.diagnose.lean import lean_features
 from statorhom.diagnose.levels import (
     common_keys,
@@ -34,6 +35,7 @@ from statorhom.diagnose.levels import (
     slipped,
 )
 from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.memory import Memory
 from statorhom.diagnose.prediction import PredictedMode, acted_materials, predicted
 from statorhom.diagnose.sensor_response import SensorResponse, sensor_response
 from statorhom.diagnose.stage_model import StageModel
@@ -70,6 +72,11 @@ class Hypothesis(AnyHypothesis):
     names: Mapping[str, Names] = field(default_factory=dict)
     # the last point's features: whoever pairs, polishes and judges asks for the same ones in turn
     _last: dict[bytes, tuple[list[Feature], Told]] = field(default_factory=dict, init=False, repr=False)
+
+    @property
+    def memories(self) -> Sequence[Memory]:
+        """Of all steps."""
+        return [stage.memory for stage in self.study.stages]
 
     def mark(self, z: FloatArray) -> tuple[tuple[str, tuple[float, ...]], ...]:
         """What the actions depend on."""
@@ -167,6 +174,20 @@ class Hypothesis(AnyHypothesis):
             told[stage.name] = (stage, known)
         return found, told
 
+    @cached_property
+    def _followed(self) -> Mapping[str, Names]:
+        """Test → names of the modes that are predicted; where a step is free, of problems with partners alone."""
+        assert self.held is not None
+        found: dict[str, Names] = {}
+        for stage in self.study.stages:
+            own = {test.name: self.names[test.name] for test in stage.tests}
+            if all(test.support == FREE for test in stage.tests):
+                held = {name: set(cast(Keys, self.held[name])) for name in own}
+                problems = frozenset[int]().union(*(problems_of(own[name], held[name]) for name in own))
+                own = {name: of_problems(names, problems) for name, names in own.items()}
+            found |= own
+        return found
+
     def _known(
         self,
         stage: StageModel,
@@ -177,7 +198,7 @@ class Hypothesis(AnyHypothesis):
     ) -> dict[ModeKey, PredictedMode]:
         """Predicted modes that the features of a test need, with their damping."""
         assert self.held is not None
-        modes = self._predicted(stage, test, values, actions, self.mark(z), self.names[test.name])
+        modes = self._predicted(stage, test, values, actions, self.mark(z), self._followed[test.name])
         if test.support == FREE:
             # only what has a measured partner matters
             held = set(cast(Keys, self.held[test.name]))

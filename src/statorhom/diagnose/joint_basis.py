@@ -18,7 +18,7 @@ from statorhom.diagnose.joint_arc import ArcGroup, JoinedMode, Weakened, arc_gro
 from statorhom.diagnose.joint_born import born_modes, surface
 from statorhom.diagnose.joint_fields import with_local_fields
 from statorhom.diagnose.joint_training import with_arcs
-from statorhom.diagnose.ring_basis import RingBasis, RingModes, ring_basis
+from statorhom.diagnose.ring_basis import RingBasis, RingModes, mark_of, ring_basis
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Materials, assemble
 from statorhom.model.blas_threads import one_blas_thread
@@ -65,9 +65,7 @@ class JointBasis:
         centre = 0.0 if joint.arc is None else joint.arc[0]
         # the place of an arc turns the splits alone: all places are solved as one
         still = replace(joint, arc=None if joint.arc is None else (0.0, joint.arc[1]), loss_factor=0.0)
-        mark = b"".join(
-            m.hooke.matrix.tobytes() + np.float64(m.density).tobytes() for m in materials.values()
-        )
+        mark = mark_of(materials)
         if (mark, still) not in self._last:
             while len(self._last) >= KEPT:
                 self._last.pop(next(iter(self._last)))

@@ -221,7 +221,7 @@ def _base(
     for action in actions:
         if action.modulus_at:
             return _rated(stage, materials, action, names)
-    found = named(stage.solve(materials).modes, names)
+    found = named(stage.solve(materials, _problems(names)).modes, names)
     return {key: _Symmetric(mode, log(mode.frequency_hz)) for key, mode in found.items()}
 
 
@@ -230,8 +230,13 @@ def _rated(
 ) -> dict[ModeKey, _Symmetric]:
     """Modes of a stator whose moduli follow the frequency: f with f = f(moduli at f), interpolated in ln f."""
     several = [at_rate(materials, action.modulus_at, rate) for rate in RATE_HZ]
-    tables = [named(stage.solve(each).modes, names) for each in several]
+    tables = [named(stage.solve(each, _problems(names)).modes, names) for each in several]
     logs = self_consistent(np.log(RATE_HZ), tables)
     # the modes' places are those of the moduli as they stand
     here = tables[AS_DECLARED]
     return {key: _Symmetric(here[key], log_f) for key, log_f in logs.items() if key in here}
+
+
+def _problems(names: Names | None) -> frozenset[int] | None:
+    """Harmonic problems whose modes are named; None for all."""
+    return None if names is None else frozenset(problem for problem, _ in names)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
@@ -24,8 +24,7 @@ from statorhom.model.stator_mode import StatorMode, name_modes
 DEPENDENT = 1e-7  # part of the norm by which a snapshot must differ from the others
 REACH = 1.15  # snapshots reach this much higher than the band
 MOST = 10  # modes of one problem per snapshot
-
-Gradient = Mapping[str, tuple[np.ndarray, float]]
+UNSOLVED = np.zeros((0, 0)), np.zeros((0, 0))  # matrices of a problem whose modes nobody wants
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,25 +49,25 @@ class RingProblem:
     def matrices(self, materials: Materials) -> tuple[np.ndarray, np.ndarray]:
         """K and M (k, k)."""
         coefficients = np.concatenate([hooke_coefficients(materials[r].hooke) for r in self.stiffness])
-        density = np.array([materials[r].density for r in self.mass])
+        density = np.array([materials[r].density for r in self.stiffness])
         shape = (self.basis.shape[1],) * 2
         stiffness, mass = self._flat
         return (coefficients @ stiffness).reshape(shape), (density @ mass).reshape(shape)
 
     @cached_property
     def _flat(self) -> tuple[np.ndarray, np.ndarray]:
-        """Parts of K and M as rows."""
+        """Parts of K and M as rows, region by region."""
         stiffness = [part.reshape(9, -1) for part in self.stiffness.values()]
-        return np.concatenate(stiffness), np.stack([part.ravel() for part in self.mass.values()])
+        return np.concatenate(stiffness), np.stack([self.mass[region].ravel() for region in self.stiffness])
 
     def slope(self, q: np.ndarray, value: float, materials: Materials) -> np.ndarray:
         """What a vector (k,) of a mode of λ = `value` gives to d ln f by Hooke entries and density of all regions."""
-        return np.concatenate(
-            [
-                np.r_[0.5 / value * (self.stiffness[r] @ q @ q), -0.5 * float(q @ self.mass[r] @ q)]
-                for r in materials
-            ]
-        )
+        both, (stiffness, mass) = np.outer(q, q).ravel(), self._flat
+        slopes = np.empty((len(mass), 10))
+        slopes[:, :9] = (0.5 / value * (stiffness @ both)).reshape(-1, 9)
+        slopes[:, 9] = -0.5 * (mass @ both)
+        places = {region: i for i, region in enumerate(self.stiffness)}
+        return slopes[[places[region] for region in materials]].ravel()
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,15 +92,6 @@ class RingModes:
         q = self.vectors[mode.problem][:, mode.column]
         return self.problems[mode.problem].slope(q, (2 * np.pi * mode.frequency_hz) ** 2, materials)
 
-    def log_frequency_gradient(self, mode: StatorMode) -> Gradient:
-        """Region → derivative of ln f with respect to its nine Hooke entries and its density."""
-        problem, q = self.problems[mode.problem], self.vectors[mode.problem][:, mode.column]
-        value = (2 * np.pi * mode.frequency_hz) ** 2
-        return {
-            region: (0.5 / value * (part @ q @ q), -0.5 * float(q @ problem.mass[region] @ q))
-            for region, part in problem.stiffness.items()
-        }
-
 
 @dataclass(frozen=True, eq=False)
 class RingBasis:
@@ -118,15 +108,24 @@ class RingBasis:
     problems: tuple[RingProblem, ...]
     highest_hz: float
 
-    def solve(self, materials: Materials) -> RingModes:
+    def solve(self, materials: Materials, numbers: Container[int] | None = None) -> RingModes:
         """Modes of the band.
+
+        Parameters
+        ----------
+        materials : of all regions.
+        numbers : of the problems whose modes are wanted; those of all by default.
 
         Raises
         ------
         SolverError
             If a mass or stiffness is not definite.
         """
-        return self.solve_matrices([p.matrices(materials) for p in self.problems], materials)
+        matrices = [
+            p.matrices(materials) if numbers is None or i in numbers else UNSOLVED
+            for i, p in enumerate(self.problems)
+        ]
+        return self.solve_matrices(matrices, materials)
 
     def solve_matrices(
         self, matrices: Sequence[tuple[np.ndarray, np.ndarray]], materials: Materials
@@ -183,6 +182,11 @@ class RingBasis:
                 added = independent(problem.basis, vectors, sp.csr_array(problem.space.project(energy)))
                 problems.append(grown(problem, added, terms, profile))
         return replace(self, problems=tuple(problems))
+
+
+def mark_of(materials: Materials) -> bytes:
+    """Equal for equal materials."""
+    return b"".join(m.hooke.matrix.tobytes() + np.float64(m.density).tobytes() for m in materials.values())
 
 
 def ring_basis(

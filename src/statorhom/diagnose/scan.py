@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis, ModelledStudy
 from statorhom.diagnose.feature import Feature
+from statorhom.diagnose.memory import remembering
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.side_by_side import side_by_side
 from statorhom.errors import StatorhomError
@@ -24,6 +25,7 @@ from statorhom.physics.candidate import Candidate
 from statorhom.physics.parameter import EffectParameter
 
 FloatArray = npt.NDArray[np.float64]
+Place = tuple[Candidate, FloatArray]  # an effect, and internal coordinates of its parameters
 ANGLES_PER_ORDER = 5  # places per half wave of the highest split order
 # of the core's length; not its middle, where splits of a symmetric stator have no slope that a refit could follow
 HEIGHTS = (0.15, 0.45, 0.7)
@@ -114,13 +116,19 @@ def scan(base: Refit, candidates: Sequence[Candidate], seed: int) -> Scan:
     without = hypothesis.features(base.z)
     places = [(c, start) for c in candidates for start in starts(base.hypothesis.study, c)]
 
-    def change(place: tuple[Candidate, FloatArray]) -> FloatArray | None:
+    def acted(place: Place) -> tuple[AnyHypothesis, FloatArray]:
         candidate, start = place
-        acted = replace(hypothesis, candidates=(*hypothesis.candidates, candidate))
-        return _change(without, acted, np.r_[base.z, start])
+        return replace(hypothesis, candidates=(*hypothesis.candidates, candidate)), np.r_[base.z, start]
 
+    def change(place: Place) -> FloatArray | None:
+        return _change(without, *acted(place))
+
+    def meshes(place: Place) -> int:
+        return _meshes(*acted(place))
+
+    changes = _first_ones_first(change, places, meshes, hypothesis)
     found = []
-    for (candidate, start), whole in zip(places, _first_ones_first(change, places), strict=True):
+    for (candidate, start), whole in zip(places, changes, strict=True):
         if whole is not None and (signature := away.signature(candidate, start, whole)) is not None:
             found.append(signature)
     found.sort(key=lambda s: -s.gain)
@@ -154,15 +162,27 @@ def left_over(before: Scan, base: Refit, first: Refit, seed: int) -> Scan:
 
 
 def _first_ones_first(
-    change: Callable[[tuple[Candidate, FloatArray]], FloatArray | None],
-    places: Sequence[tuple[Candidate, FloatArray]],
+    change: Callable[[Place], FloatArray | None],
+    places: Sequence[Place],
+    meshes: Callable[[Place], int],
+    hypothesis: AnyHypothesis,
 ) -> list[FloatArray | None]:
     """Changes at all places; what all those of a candidate need is made by its first one, and remembered here."""
-    first = {candidate.label: i for i, (candidate, _) in reversed(list(enumerate(places)))}
-    rest = [i for i in range(len(places)) if i not in first.values()]
-    known = {i: change(places[i]) for i in first.values()}
+    first = {candidate.label: i for i, (candidate, _) in reversed(list(enumerate(places)))}.values()
+    apart = [i for i in first if hypothesis.memories and meshes(places[i])]
+    apart.sort(key=lambda i: -meshes(places[i]))
+    dear = remembering(change, [places[i] for i in apart], hypothesis.memories, hypothesis.shared)
+    known = dict(zip(apart, dear, strict=True))
+    known |= {i: change(places[i]) for i in first if i not in known}
+    rest = [i for i in range(len(places)) if i not in known]
     known |= dict(zip(rest, side_by_side(change, [places[i] for i in rest], least=MANY), strict=True))
     return [known[i] for i in range(len(places))]
+
+
+def _meshes(acted: AnyHypothesis, z: FloatArray) -> int:
+    """How dear the meshes are that the last effect alone asks for: of parts that meet, of other sizes, none."""
+    action = acted.actions(z)[len(acted.candidates) - 1]
+    return 2 if action.joint is not None else int(bool(action.dimensions))
 
 
 def _rows(r: Refit) -> list[tuple[str, str, object, int]]:

@@ -11,7 +11,8 @@ import numpy as np
 
 from statorhom.diagnose.joint_basis import JointBasis, joint_basis
 from statorhom.diagnose.measured import MeasuredTest
-from statorhom.diagnose.ring_basis import RingBasis, RingModes, ring_basis
+from statorhom.diagnose.memory import Memory
+from statorhom.diagnose.ring_basis import RingBasis, RingModes, mark_of, ring_basis
 from statorhom.diagnose.scatter_weights import scatter_weights
 from statorhom.diagnose.side_by_side import workers
 from statorhom.diagnose.supported_slopes import HeldShapes
@@ -61,13 +62,12 @@ class StageModel:
     reference: Materials
     error: ModelError
     density: MeshDensity
-    _last: dict[bytes, RingModes] = field(default_factory=dict, repr=False)
+    _last: dict[bytes, tuple[frozenset[int], RingModes]] = field(default_factory=dict, repr=False)
     kept_responses: dict[Hashable, Any] = field(default_factory=dict, repr=False)
-    _slopes: dict[int, dict[tuple[int, int], np.ndarray]] = field(default_factory=dict, repr=False)
+    _slopes: dict[bytes, dict[tuple[int, int], np.ndarray]] = field(default_factory=dict, repr=False)
     arcs: tuple[tuple[float, float], ...] = ()
-    _joints: dict[tuple[tuple[str, ...], tuple[float, float] | None], JointBasis] = field(
-        default_factory=dict, repr=False
-    )
+    # what belongs to the reference and takes seconds
+    memory: Memory = field(default_factory=Memory, repr=False)
     _trained: dict[tuple[str, ...], TrainedBasis] = field(default_factory=dict, repr=False)
     _corrected: dict[tuple[str, ...], TrainedBasis] = field(default_factory=dict, repr=False)
     _narrow: dict[float, TrainedBasis] = field(default_factory=dict, repr=False)
@@ -102,17 +102,20 @@ class StageModel:
         """Whether the stator is its own mirror image about the core's middle."""
         return len(pitch_parts(self.model.mesh)) > 1
 
-    def solve(self, materials: Materials) -> RingModes:
-        """Symmetric modes; the last materials' are kept."""
-        mark = b"".join(
-            m.hooke.matrix.tobytes() + np.float64(m.density).tobytes() for m in materials.values()
-        )
-        if mark not in self._last:
+    def solve(self, materials: Materials, problems: frozenset[int] | None = None) -> RingModes:
+        """Symmetric modes, those of some harmonic problems at least; the last materials' are kept."""
+        mark = mark_of(materials)
+        whole = frozenset(range(len(self.ring.problems)))
+        wanted = whole if problems is None else problems
+        known, solved = self._last.get(mark, (frozenset[int](), None))
+        if solved is None or not wanted <= known:
             if len(self._last) > 64:
                 self._last.clear()
                 self._slopes.clear()
-            self._last[mark] = self.ring.solve(materials)
-        return self._last[mark]
+            wanted = wanted | known
+            solved = self.ring.solve(materials, wanted)
+            self._last[mark] = wanted, solved
+        return solved
 
     @cached_property
     def broken(self) -> SymmetricBasis:
@@ -134,19 +137,20 @@ class StageModel:
         used = tuple(r for r in joint.regions if r in self.model.mesh.regions)
         # with arcs the contact elsewhere stays what it is
         mark = used, None if joint.arc is None else (joint.normal, joint.tangential)
-        if mark not in self._joints:
-            differs = joint.arc is not None
-            arcs = [replace(joint, arc=(0.0, w), ratio=q) for w, q in self.arcs] if differs else []
-            self._joints[mark] = joint_basis(
-                self.model.mesh,
-                used,
-                self.reference,
-                self.ring.highest_hz,
-                self.orders,
-                may_differ=differs,
-                arcs=arcs,
-            )
-        return self._joints[mark]
+        return self.memory.once(("joint", *mark), lambda: self._joined(used, joint))
+
+    def _joined(self, regions: tuple[str, ...], joint: Joint) -> JointBasis:
+        differs = joint.arc is not None
+        arcs = [replace(joint, arc=(0.0, w), ratio=q) for w, q in self.arcs] if differs else []
+        return joint_basis(
+            self.model.mesh,
+            regions,
+            self.reference,
+            self.ring.highest_hz,
+            self.orders,
+            may_differ=differs,
+            arcs=arcs,
+        )
 
     @cached_property
     def reference_keys(self) -> Mapping[ModeKey, StatorMode]:
@@ -204,13 +208,12 @@ class StageModel:
         ----------
         places : of the modes (`StatorMode.place`).
         """
-        solved = self.solve(materials)
-        known = self._slopes.setdefault(id(solved), {})
+        solved = self.solve(materials, frozenset(problem for problem, _ in places.values()))
+        known = self._slopes.setdefault(mark_of(materials), {})
         missing = set(places.values()) - set(known)
         for mode in solved.modes if missing else ():
             if mode.place in missing:
-                gradient = solved.log_frequency_gradient(mode)
-                known[mode.place] = np.concatenate([np.r_[gradient[r][0], gradient[r][1]] for r in materials])
+                known[mode.place] = solved.slope(mode, materials)
         return {key: known[place] for key, place in places.items() if place in known}
 
     def reference_slopes(self, keys: Iterable[ModeKey]) -> dict[ModeKey, np.ndarray]:
@@ -261,7 +264,7 @@ def with_reference(
         reference=materials,
         _last={},
         _slopes={},
-        _joints={},
+        memory=Memory(),
         _trained={},
         _corrected={},
         _narrow={},

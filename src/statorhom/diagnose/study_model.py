@@ -18,6 +18,7 @@ from statorhom.model.affine import Materials
 from statorhom.physics.action import Action
 from statorhom.study.study import StudyFiles
 
+KEPT = 16  # materials
 FloatArray = npt.NDArray[np.float64]
 
 
@@ -40,6 +41,8 @@ class StudyModel:
     stages: tuple[StageModel, ...]
     effects: tuple[Action, ...] = ()
     _volumes: dict[int, Mapping[str, float]] = field(default_factory=dict, repr=False)
+    # predictions, damping and slopes ask for the same ones in turn
+    _declared: dict[tuple[object, ...], Materials] = field(default_factory=dict, init=False, repr=False)
 
     def masses(self, values: Mapping[str, float], corrected: Mapping[str, float]) -> dict[str, float]:
         """Stage → weight, corrected where an effect says so."""
@@ -61,7 +64,17 @@ class StudyModel:
     def declared(
         self, setup: StageSetup, values: Mapping[str, float], masses: Mapping[str, float]
     ) -> Materials:
-        """The same before the stage has a model."""
+        """The same before the stage has a model; the last ones are kept."""
+        mark = setup.index, tuple(values.values()), tuple(masses.values())
+        if mark not in self._declared:
+            while len(self._declared) >= KEPT:
+                self._declared.pop(next(iter(self._declared)))
+            self._declared[mark] = self._materials(setup, values, masses)
+        return self._declared[mark]
+
+    def _materials(
+        self, setup: StageSetup, values: Mapping[str, float], masses: Mapping[str, float]
+    ) -> Materials:
         index = setup.index
         density = stage_densities(self.files, masses, index, self.volumes(setup))
         own = self.constants.stage_values(values, index)
