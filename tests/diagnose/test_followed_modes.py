@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from statorhom.diagnose.followed_modes import named, names_of, of_problems, problems_of
+from statorhom.diagnose.followed_modes import named, names_of, with_partners
 from statorhom.model.convergence import mode_keys
 from statorhom.model.stator_mode import StatorMode
 
@@ -46,11 +46,13 @@ def test_what_is_gone_is_left_out() -> None:
     assert named([mode(4110.0, (5, 0), (2, 1))], names) == {}
 
 
-def test_problems_are_followed_by_themselves() -> None:
+def test_problems_without_partners_are_left_out_and_change_no_other() -> None:
     paired = [mode(900.0, (3, 0), (2, 1)), mode(1500.0, (3, 2), (2, 1)), mode(2000.0, (5, 0), (3, 0))]
     names = names_of(mode_keys(paired))
-    assert problems_of(names, {(2, 1, 1)}) == {3}
-    assert of_problems(names, {3}) == {(3, 0): (2, 1, 0), (3, 2): (2, 1, 1)}
+    tests = {"low": names, "high": names}
+    found = with_partners(tests, {"low": [(2, 1, 1), None], "high": [None]})
+    # tests of one step are predicted together
+    assert found["low"] == found["high"] == {(3, 0): (2, 1, 0), (3, 2): (2, 1, 1)}
     later = [mode(905.0, (3, 0), (2, 1)), mode(1490.0, (3, 2), (2, 1)), mode(2010.0, (5, 0), (3, 0))]
     whole = named(later, names)
-    assert named(later, of_problems(names, {3})) == {k: m for k, m in whole.items() if m.problem == 3}
+    assert named(later, found["low"]) == {k: m for k, m in whole.items() if m.problem == 3}

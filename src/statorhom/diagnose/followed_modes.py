@@ -7,7 +7,7 @@ two of them come near each other they exchange their shapes; then the name is wh
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Mapping, Set
+from collections.abc import Collection, Iterable, Mapping
 
 from statorhom.model.convergence import ModeKey, mode_keys
 from statorhom.model.stator_mode import StatorMode
@@ -20,14 +20,20 @@ def names_of(modes: Mapping[ModeKey, StatorMode]) -> Names:
     return {mode.place: key for key, mode in modes.items()}
 
 
-def problems_of(names: Names, keys: Container[ModeKey | None]) -> frozenset[int]:
-    """The harmonic problems of modes with some names."""
-    return frozenset(problem for (problem, _), key in names.items() if key in keys)
+def with_partners(
+    names: Mapping[str, Names], held: Mapping[str, Collection[ModeKey | None]]
+) -> dict[str, Names]:
+    """The names in the harmonic problems that hold a partner of any measured mode; others are followed by themselves.
 
-
-def of_problems(names: Names, problems: Set[int]) -> Names:
-    """The names of the modes of some harmonic problems; others are followed by themselves."""
-    return {place: key for place, key in names.items() if place[0] in problems}
+    Parameters
+    ----------
+    names, held : test → names and partners, of the tests of one step.
+    """
+    problems = {p for test, own in names.items() for (p, _), key in own.items() if key in held[test]}
+    return {
+        test: {place: key for place, key in own.items() if place[0] in problems}
+        for test, own in names.items()
+    }
 
 
 def named(modes: Iterable[StatorMode], names: Names | None) -> dict[ModeKey, StatorMode]:

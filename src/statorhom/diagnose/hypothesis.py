@@ -25,7 +25,7 @@ from statorhom.diagnose.damping import (
 from statorhom.diagnose.density_features import density_features
 from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.features import free_features, loading, shift_features, with_rows
-from statorhom.diagnose.followed_modes import Names, names_of, of_problems, problems_of
+from statorhom.diagnose.followed_modes import Names, names_of, with_partners
 from statorhom.diagnose.lean import lean_features
 from statorhom.diagnose.levels import (
     common_keys,
@@ -181,11 +181,8 @@ class Hypothesis(AnyHypothesis):
         found: dict[str, Names] = {}
         for stage in self.study.stages:
             own = {test.name: self.names[test.name] for test in stage.tests}
-            if all(test.support == FREE for test in stage.tests):
-                held = {name: set(cast(Keys, self.held[name])) for name in own}
-                problems = frozenset[int]().union(*(problems_of(own[name], held[name]) for name in own))
-                own = {name: of_problems(names, problems) for name, names in own.items()}
-            found |= own
+            free = all(test.support == FREE for test in stage.tests)
+            found |= with_partners(own, {name: cast(Keys, self.held[name]) for name in own}) if free else own
         return found
 
     def _known(
