@@ -9,6 +9,7 @@ import pytest
 
 from statorhom.diagnose import supported as module
 from statorhom.diagnose.measured import MeasuredTest
+from statorhom.model.kept import Kept
 from statorhom.physics.action import Action
 from statorhom.physics.effects.support_compliance import elastic
 from statorhom.study.supports import LineSupport
@@ -21,7 +22,7 @@ def test_what_a_support_dissipates_asks_for_no_other_solution(monkeypatch: pytes
     solved: list[Any] = []
     monkeypatch.setattr(module, "_solved", lambda *args: solved.append(args) or len(solved))
     files: Any = SimpleNamespace(study=SimpleNamespace(support=lambda _: RIGID))
-    stage: Any = SimpleNamespace(name="stack", kept_responses={})
+    stage: Any = SimpleNamespace(name="stack", responses=Kept())
 
     def reference(stiffness: float, loss: float) -> object:
         values = {"normal_stiffness_n_per_m2": stiffness, "tangential_ratio": 0.7, "loss_factor": loss}

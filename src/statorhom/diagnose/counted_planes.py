@@ -40,16 +40,15 @@ def counted_at_planes(
 
 def _counts(stage: StageModel, z_m: tuple[float, ...]) -> Mapping[ModeKey, tuple[int, ...]]:
     """Of every named mode of the reference, the likeliest first."""
-    place = ("counted planes", z_m)
-    if place not in stage.kept_responses:
-        profiles = reference_profiles(stage, tuple(sorted(z_m)))
-        found = {key: _possible(along[:, None]) for key, along in profiles.items()}
-        stage.kept_responses[place] = {
-            key: (*counts, *range(len(z_m))) if _is_mixed(stage, key) else counts
-            for key, counts in found.items()
-        }
-    known: Mapping[ModeKey, tuple[int, ...]] = stage.kept_responses[place]
-    return known
+    return stage.memory.once(("counted planes", z_m), lambda: _counted(stage, z_m))
+
+
+def _counted(stage: StageModel, z_m: tuple[float, ...]) -> dict[ModeKey, tuple[int, ...]]:
+    profiles = reference_profiles(stage, tuple(sorted(z_m)))
+    found = {key: _possible(along[:, None]) for key, along in profiles.items()}
+    return {
+        key: (*counts, *range(len(z_m))) if _is_mixed(stage, key) else counts for key, counts in found.items()
+    }
 
 
 def _is_mixed(stage: StageModel, key: ModeKey) -> bool:

@@ -175,12 +175,11 @@ def _energy(
     mesh = stage.model.mesh
     pieces = region_pieces(mesh, region, stage.reference[region])
     place = cells(mesh, elements_in(mesh, (region,)))
-    used, inverse = np.unique(pieces.dofs, return_inverse=True)
-    local = inverse.reshape(pieces.dofs.shape)
+    used, own = pieces.alone()
     energy = np.zeros((len(pieces), 2 * mesh.slots))
     for column in fields.T:
         motion = basis.waves.in_copies(used, column[:, None])[..., 0]  # (2 N, d)
-        u = motion[:, local]  # (2 N, e, q)
+        u = motion[:, own.dofs]  # (2 N, e, q)
         energy += 0.5 * np.einsum(
             "ceq,ceq->ec", np.einsum("ceq,eqr->cer", u, pieces.matrices, optimize=True), u
         )

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -26,11 +26,12 @@ from statorhom.model.broken.interface import contact, split
 from statorhom.model.broken.pieces import Pieces
 from statorhom.model.convergence import ModeKey, mode_keys
 from statorhom.model.free_modes import total_mass
+from statorhom.model.kept import Kept
 from statorhom.model.stator_mode import StatorMode
 from statorhom.physics.action import Joint
 
 LADDER = (1e14, 1e12, 1e11, 1e10)  # N/m³: contacts whose modes span the bases
-KEPT = 64  # solutions
+SOLUTIONS = 64  # that are kept
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +48,7 @@ class JointBasis:
     ring: RingBasis
     pieces: tuple[Pieces, Pieces]
     springs: tuple[np.ndarray, ...]
-    _last: dict[tuple[bytes, Joint], Mapping[ModeKey, JoinedMode]] = field(default_factory=dict, repr=False)
+    _latest: Kept = field(default_factory=partial(Kept, SOLUTIONS), repr=False)
 
     @cached_property
     def groups(self) -> tuple[ArcGroup, ...]:
@@ -66,17 +67,17 @@ class JointBasis:
         # the place of an arc turns the splits alone: all places are solved as one
         still = replace(joint, arc=None if joint.arc is None else (0.0, joint.arc[1]), loss_factor=0.0)
         mark = mark_of(materials)
-        if (mark, still) not in self._last:
-            while len(self._last) >= KEPT:
-                self._last.pop(next(iter(self._last)))
-            with one_blas_thread():
-                self._last[mark, still] = self._solved(materials, still)
+        solved = self._latest.once((mark, still), lambda: self._solved(materials, still))
         return {
             key: replace(one, split=complex(one.split * np.exp(2j * key[0] * centre)))
-            for key, one in self._last[mark, still].items()
+            for key, one in solved.items()
         }
 
     def _solved(self, materials: Materials, joint: Joint) -> dict[ModeKey, JoinedMode]:
+        with one_blas_thread():
+            return self._modes(materials, joint)
+
+    def _modes(self, materials: Materials, joint: Joint) -> dict[ModeKey, JoinedMode]:
         even = self._even(materials, joint)
         keys = mode_keys(even.modes)
         if joint.arc is None or joint.ratio == 1.0:

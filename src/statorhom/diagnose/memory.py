@@ -6,24 +6,18 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 from typing import Any, TypeVar
 
 from statorhom.diagnose.side_by_side import side_by_side
+from statorhom.model.kept import Kept
 
 _T = TypeVar("_T")
 _R = TypeVar("_R")
 News = list[Mapping[Hashable, Any]]
 
 
-class Memory:
-    """Results by marks; equal marks stand for equal results."""
+class Memory(Kept):
+    """All results, and what others made."""
 
     def __init__(self) -> None:
-        self._known: dict[Hashable, Any] = {}
-
-    def once(self, mark: Hashable, make: Callable[[], _R]) -> _R:
-        """What stands for the mark, made now if it is not there."""
-        if mark not in self._known:
-            self._known[mark] = make()
-        found: _R = self._known[mark]
-        return found
+        super().__init__()
 
     @property
     def marks(self) -> frozenset[Hashable]:
@@ -36,7 +30,8 @@ class Memory:
 
     def learn(self, news: Mapping[Hashable, Any]) -> None:
         """Keep what was made elsewhere, but where it is there already."""
-        self._known = {**news, **self._known}
+        for mark, result in news.items():
+            self._known.setdefault(mark, result)
 
 
 def remembering(

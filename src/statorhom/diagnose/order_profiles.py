@@ -19,18 +19,18 @@ FloatArray = npt.NDArray[np.float64]
 
 def reference_profiles(stage: StageModel, heights_m: tuple[float, ...]) -> Mapping[ModeKey, FloatArray]:
     """Profiles (heights,) of the symmetric stator's named modes at the reference, over ascending heights; kept."""
-    place = ("profiles", heights_m)
-    if place not in stage.kept_responses:
-        profile = radial_profile(stage.model.mesh, np.array(heights_m))
-        solved = stage.solve(stage.reference)
-        found = {}
-        for key, mode in stage.reference_keys.items():
-            problem, vectors = stage.ring.problems[mode.problem], solved.vectors[mode.problem]
-            shape = problem.space.expand(problem.basis @ vectors[:, [mode.column]])
-            found[key] = profile.orders(problem.space, shape)[:, 0]
-        stage.kept_responses[place] = found
-    known: Mapping[ModeKey, FloatArray] = stage.kept_responses[place]
-    return known
+    return stage.memory.once(("profiles", heights_m), lambda: _profiles(stage, heights_m))
+
+
+def _profiles(stage: StageModel, heights_m: tuple[float, ...]) -> dict[ModeKey, FloatArray]:
+    profile = radial_profile(stage.model.mesh, np.array(heights_m))
+    solved = stage.solve(stage.reference)
+    found = {}
+    for key, mode in stage.reference_keys.items():
+        problem, vectors = stage.ring.problems[mode.problem], solved.vectors[mode.problem]
+        shape = problem.space.expand(problem.basis @ vectors[:, [mode.column]])
+        found[key] = profile.orders(problem.space, shape)[:, 0]
+    return found
 
 
 def broken_profile(

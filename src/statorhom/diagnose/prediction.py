@@ -21,7 +21,6 @@ from statorhom.model.stator_mode import StatorMode
 from statorhom.physics.action import Action
 from statorhom.physics.rated import at_rate, self_consistent
 
-KEPT = 256  # responses per stage
 RATE_HZ = (
     400.0,
     1000.0,
@@ -183,17 +182,15 @@ def broken_responses(
     """Shifts and splits by all that breaks the symmetry; those of a few marks are kept."""
     if not any(a.changes for a in actions):
         return {}
-    known = stage.kept_responses
-    if mark is None or mark not in known:
-        changes = [c for a in actions if a.changes for c in a.changes(stage.model.mesh, stage.reference)]
-        trainings = [a.training for a in actions if a.training is not None]
-        found = responses(stage, changes, trainings) if changes else {}
-        if mark is None:
-            return found
-        while len(known) >= KEPT:
-            known.pop(next(iter(known)))
-        known[mark] = found
-    return known[mark]
+    if mark is None:
+        return _broken_responses(stage, actions)
+    return stage.responses.once(mark, lambda: _broken_responses(stage, actions))
+
+
+def _broken_responses(stage: StageModel, actions: Sequence[Action]) -> Mapping[ModeKey, Response]:
+    changes = [c for a in actions if a.changes for c in a.changes(stage.model.mesh, stage.reference)]
+    trainings = [a.training for a in actions if a.training is not None]
+    return responses(stage, changes, trainings) if changes else {}
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -28,6 +28,7 @@ from statorhom.model.broken.visible import visible
 from statorhom.model.convergence import ModeKey, converge, mode_keys
 from statorhom.model.free_modes import FreeModes, problem_at
 from statorhom.model.harmonic import Harmonic
+from statorhom.model.kept import Kept
 from statorhom.model.pitch_parts import pitch_parts
 from statorhom.model.stator_mode import StatorMode
 from statorhom.physics.action import Joint, Training
@@ -38,6 +39,7 @@ BROKEN_MARGIN = 1.25
 CUT = 1.5  # of a narrower band: how far its basis reaches beyond it
 MOST = 6  # modes of a harmonic problem on it
 OF_REFERENCE = ("broken", "mirrors", "reference_keys", "scattered")
+RESPONSES = 256  # to what breaks the symmetry, that are kept
 FINER = 1.5  # second mesh of the extrapolation
 
 
@@ -63,7 +65,7 @@ class StageModel:
     error: ModelError
     density: MeshDensity
     _last: dict[bytes, tuple[frozenset[int], RingModes]] = field(default_factory=dict, repr=False)
-    kept_responses: dict[Hashable, Any] = field(default_factory=dict, repr=False)
+    responses: Kept = field(default_factory=partial(Kept, RESPONSES), repr=False)
     _slopes: dict[bytes, dict[tuple[int, int], np.ndarray]] = field(default_factory=dict, repr=False)
     arcs: tuple[tuple[float, float], ...] = ()
     # what belongs to the reference and takes seconds
@@ -167,7 +169,7 @@ class StageModel:
 
     def with_error(self, error: ModelError) -> StageModel:
         """The same stage with other mesh factors."""
-        return replace(self, error=error, kept_responses={}, sensor_responses={}, _corrected={})
+        return replace(self, error=error, responses=Kept(RESPONSES), sensor_responses={}, _corrected={})
 
     def _on_this_mesh(self, trainings: Sequence[Training]) -> TrainedBasis:
         mark = tuple(sorted(t.key for t in trainings))
@@ -269,6 +271,6 @@ def with_reference(
         _corrected={},
         _narrow={},
         held_shapes={},
-        kept_responses={},
+        responses=Kept(RESPONSES),
         sensor_responses={},
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -15,10 +16,11 @@ from statorhom.geometry.tested_object import RingGeometry
 from statorhom.identify.stage_materials import DENSITY
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.model.affine import Materials
+from statorhom.model.kept import Kept
 from statorhom.physics.action import Action
 from statorhom.study.study import StudyFiles
 
-KEPT = 16  # materials
+MATERIALS = 16  # that are kept
 FloatArray = npt.NDArray[np.float64]
 
 
@@ -42,7 +44,7 @@ class StudyModel:
     effects: tuple[Action, ...] = ()
     _volumes: dict[int, Mapping[str, float]] = field(default_factory=dict, repr=False)
     # predictions, damping and slopes ask for the same ones in turn
-    _declared: dict[tuple[object, ...], Materials] = field(default_factory=dict, init=False, repr=False)
+    _latest: Kept = field(default_factory=partial(Kept, MATERIALS), init=False, repr=False)
 
     def masses(self, values: Mapping[str, float], corrected: Mapping[str, float]) -> dict[str, float]:
         """Stage → weight, corrected where an effect says so."""
@@ -66,11 +68,7 @@ class StudyModel:
     ) -> Materials:
         """The same before the stage has a model; the last ones are kept."""
         mark = setup.index, tuple(values.values()), tuple(masses.values())
-        if mark not in self._declared:
-            while len(self._declared) >= KEPT:
-                self._declared.pop(next(iter(self._declared)))
-            self._declared[mark] = self._materials(setup, values, masses)
-        return self._declared[mark]
+        return self._latest.once(mark, lambda: self._materials(setup, values, masses))
 
     def _materials(
         self, setup: StageSetup, values: Mapping[str, float], masses: Mapping[str, float]

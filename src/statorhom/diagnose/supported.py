@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from statorhom.diagnose.measured import MeasuredTest
-from statorhom.diagnose.prediction import KEPT, PredictedMode, material_vector
+from statorhom.diagnose.prediction import PredictedMode, material_vector
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.supported_slopes import HeldShapes, held_shapes
 from statorhom.diagnose.trained_basis import TrainedBasis
@@ -110,18 +110,13 @@ def attached(stage: StageModel, action: Action, mark: Hashable) -> tuple[Attachm
     """What an action attaches to the surface; kept under its mark."""
     if action.changes is None:
         return ()
-    place = ("attached", mark)
-    if place not in stage.kept_responses:
-        changes = action.changes(stage.model.mesh, stage.reference)
-        _keep(stage, place, tuple(c for c in changes if isinstance(c, Attachment)))
-    known: tuple[Attachment, ...] = stage.kept_responses[place]
-    return known
+    return stage.responses.once(("attached", mark), lambda: _attached(stage, action))
 
 
-def _keep(stage: StageModel, place: Hashable, found: object) -> None:
-    while len(stage.kept_responses) >= KEPT:
-        stage.kept_responses.pop(next(iter(stage.kept_responses)))
-    stage.kept_responses[place] = found
+def _attached(stage: StageModel, action: Action) -> tuple[Attachment, ...]:
+    assert action.changes is not None
+    changes = action.changes(stage.model.mesh, stage.reference)
+    return tuple(c for c in changes if isinstance(c, Attachment))
 
 
 def without_attachments(action: Action) -> Action:
@@ -146,11 +141,9 @@ def supported_reference(
 ) -> SupportedReference | None:
     """Modes of a supported test with what else is attached; None for supports that hold end faces."""
     place = ("supported", test.name, mark)
-    known: SupportedReference | None = stage.kept_responses.get(place)
-    if place not in stage.kept_responses or (shapes and known is not None and not known.paired):
-        known = _solved(stage, test, keys, more, shapes)
-        stage.kept_responses.pop(place, None)
-        _keep(stage, place, known)
+    known = stage.responses.once(place, lambda: _solved(stage, test, keys, more, shapes))
+    if shapes and known is not None and not known.paired:
+        return stage.responses.put(place, _solved(stage, test, keys, more, shapes))
     return known
 
 
@@ -219,9 +212,7 @@ def _springs(stage: StageModel, held: HeldPoints) -> Attachment:
     """Springs of a support; those of other stiffness share their points, whose loads are known then."""
     place = ("springs", held.angles.tobytes(), held.z.tobytes())
     found = springs(stage.model.mesh, held)
-    if place not in stage.kept_responses:
-        _keep(stage, place, found)
-    known: Attachment = stage.kept_responses[place]
+    known = stage.responses.once(place, lambda: found)
     return replace(known, stiffness=found.stiffness)
 
 

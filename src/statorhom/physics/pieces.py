@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from collections.abc import Callable
-from typing import TypeVar, cast
+from typing import TypeVar
 
 import numpy as np
 
@@ -12,13 +11,14 @@ from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Material, hooke_coefficients
 from statorhom.model.broken.layers import Layers, radial_layers
 from statorhom.model.broken.pieces import Pieces, stiffness_pieces
+from statorhom.model.kept import Kept
 from statorhom.study.regions import core_region
 
 ALL = (True,) * 9
 MOST = 12  # sets of pieces that are kept
 LAYERS = 4  # an element, where the depth of a feature counts
-_KEPT: OrderedDict[tuple[object, ...], tuple[HalfPitchMesh, Pieces | Layers]] = OrderedDict()
-_Kept = TypeVar("_Kept", Pieces, Layers)
+_LATEST = Kept(MOST)
+_Parts = TypeVar("_Parts", Pieces, Layers)
 
 
 def region_pieces(
@@ -50,10 +50,7 @@ def yoke_layers(mesh: HalfPitchMesh, material: Material, inner: float) -> Layers
     )
 
 
-def _kept(mesh: HalfPitchMesh, key: tuple[object, ...], make: Callable[[], _Kept]) -> _Kept:
-    if key not in _KEPT:
-        while len(_KEPT) >= MOST:
-            _KEPT.popitem(last=False)
-        # the mesh is kept with its pieces, so that its id stays its own
-        _KEPT[key] = (mesh, make())
-    return cast("_Kept", _KEPT[key][1])
+def _kept(mesh: HalfPitchMesh, key: tuple[object, ...], make: Callable[[], _Parts]) -> _Parts:
+    # the mesh is kept with its pieces, so that its id stays its own
+    _, parts = _LATEST.once(key, lambda: (mesh, make()))
+    return parts

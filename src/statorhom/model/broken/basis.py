@@ -6,11 +6,9 @@ of the symmetric stator.
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
-from typing import Any
+from functools import cached_property, partial
 
 import numpy as np
 import scipy.sparse as sp
@@ -27,8 +25,10 @@ from statorhom.model.cyclic.half_pitch import half_pitch
 from statorhom.model.cyclic.problem import CyclicProblem, Shifted
 from statorhom.model.eigen import SHIFT
 from statorhom.model.harmonic import all_orders, spaces_of
+from statorhom.model.kept import Kept
 from statorhom.model.pitch_parts import pitch_parts
 
+PLACES = 8  # of attachments, and sets of them, whose motions and responses are kept
 MARGIN = 2.0  # modes reach this much higher than the band
 OF_VECTORS = (
     "waves",
@@ -63,12 +63,8 @@ class SymmetricBasis:
     softest: tuple[tuple[Pieces, np.ndarray], ...] = ()
     added: np.ndarray | None = None
     grams: GramCache = field(default_factory=GramCache, repr=False, compare=False)
-    kept_motions: OrderedDict[bytes, Any] = field(
-        default_factory=OrderedDict, init=False, repr=False, compare=False
-    )
-    kept_statics: OrderedDict[tuple[bytes, ...], Any] = field(
-        default_factory=OrderedDict, init=False, repr=False, compare=False
-    )
+    motions: Kept = field(default_factory=partial(Kept, PLACES), init=False, repr=False, compare=False)
+    statics: Kept = field(default_factory=partial(Kept, PLACES), init=False, repr=False, compare=False)
 
     @cached_property
     def waves(self) -> Waves:

@@ -23,7 +23,6 @@ from statorhom.model.broken.waves import Waves
 
 DEPENDENT = 1e-24  # squared part of the largest stiffness or mass below which a motion carries neither
 
-KEPT = 8  # places, and sets of them, whose responses are kept
 
 Loads = Mapping[bool, np.ndarray]
 
@@ -142,15 +141,11 @@ def statics(basis: SymmetricBasis, attachments: Sequence[Attachment]) -> Statics
     mass = block_diag(*[a.mass for a in attachments]) if attachments else np.zeros((0, 0))
     used = _carrying(stiffness, mass)
     if used is None:
-        places = tuple(a.place for a in attachments)
-        if places not in basis.kept_statics:
-            basis.kept_statics[places] = StaticResponses(
-                basis, _loads(basis, attachments, np.eye(len(stiffness)))
-            )
-            if len(basis.kept_statics) > KEPT:
-                basis.kept_statics.popitem(last=False)
-        basis.kept_statics.move_to_end(places)
-        return Statics(basis.kept_statics[places], stiffness, mass)
+        to_units = basis.statics.once(
+            tuple(a.place for a in attachments),
+            lambda: StaticResponses(basis, _loads(basis, attachments, np.eye(len(stiffness)))),
+        )
+        return Statics(to_units, stiffness, mass)
     loads = _loads(basis, attachments, used)
     return Statics(StaticResponses(basis, loads), used.T @ stiffness @ used, used.T @ mass @ used)
 
@@ -171,12 +166,7 @@ def _motion(basis: SymmetricBasis, a: Attachment) -> np.ndarray:
 
     Those of the latest places are kept: a support's springs stay where they are when a lump moves.
     """
-    if a.place not in basis.kept_motions:
-        basis.kept_motions[a.place] = basis.surface.motion(a)
-        if len(basis.kept_motions) > KEPT:
-            basis.kept_motions.popitem(last=False)
-    basis.kept_motions.move_to_end(a.place)
-    return np.asarray(basis.kept_motions[a.place])
+    return basis.motions.once(a.place, lambda: basis.surface.motion(a))
 
 
 def _loads(basis: SymmetricBasis, attachments: Sequence[Attachment], used: np.ndarray) -> np.ndarray:
