@@ -32,8 +32,9 @@ def die(task: int) -> int:
 
 
 def sleep(task: Path) -> None:
-    task.touch()
     try:
+        # within: whoever waits for the file may end the process as soon as it is there
+        task.touch()
         time.sleep(60)
     finally:
         task.unlink()
