@@ -24,6 +24,7 @@ from statorhom.results.diagnosis import (
     OppositeRow,
     OptionRow,
     RefittedRow,
+    RuleRow,
     ScanRow,
     Verdict,
 )
@@ -83,6 +84,21 @@ def example_diagnosis(verdict: Verdict, study: str = "example", stage: str = "st
     )
 
 
+def example_rules(verdict: Verdict) -> tuple[RuleRow, ...]:
+    """What an answer passed."""
+    named = verdict == "named"
+    return (
+        RuleRow(rule="chance", found=2.5e-4, needed=0.01, passed=True),
+        RuleRow(rule="nothing", found=368.0, needed=5.0, passed=True),
+        RuleRow(rule="others", found=261.0 if named else 0.4, needed=3.0, passed=named),
+        RuleRow(rule="discrepancy", found=240.0 if named else -1.0, needed=0.0, passed=named),
+        RuleRow(rule="held_out", found=0.94, needed=0.25, passed=True),
+        RuleRow(rule="adequacy", found=0.4 if named else 1e-12, needed=0.01, passed=named),
+        RuleRow(rule="within", found=None, needed=None, passed=True),
+        RuleRow(rule="stability", found=1.0 if named else 0.5, needed=0.8, passed=named),
+    )
+
+
 def example_details(verdict: Verdict, stage: str = "stack", places: bool = True) -> Details:
     """The numbers behind it; `places`: with maps and angles, as from recordings."""
     angles = np.arange(0.0, 360.0, 5.0)
@@ -132,6 +148,7 @@ def example_details(verdict: Verdict, stage: str = "stack", places: bool = True)
             ),
         ),
         evidence=(("attached_mass (stack)", 100.0),),
+        rules=example_rules(verdict),
         seconds=12.0,
         machine=MachineRow(length_mm=80.5, outer_diameter_mm=120.0, slots=36),
         maps=(

@@ -17,7 +17,7 @@ from statorhom.report.diagnosis.page import diagnosis_document
 from statorhom.report.diagnosis.words import figure, quantity, sizes_words
 from statorhom.report.html import render_html
 from statorhom.results import write_results
-from statorhom.results.diagnosis import Estimated, FeatureRow, Verdict, write_diagnosis
+from statorhom.results.diagnosis import Estimated, FeatureRow, RuleRow, Verdict, write_diagnosis
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
@@ -92,14 +92,31 @@ def test_what_to_measure_next_and_what_passed() -> None:
     assert '<span class="warning">no</span>' in unknown and '<span class="good">yes</span>' in unknown
 
 
+def test_every_rule_is_told_with_what_it_asked() -> None:
+    said = words_of(page("named"))
+    assert "Its trace in the data is no accident chance 1 in 4 000 below 1 in 100 yes" in said
+    assert "The data prefer it to “nothing” odds over a billion : 1 over 150 : 1 yes" in said
+    assert "something else that moves each mode by chance odds over a billion : 1 over 1 : 1 yes" in said
+    assert "predicted better error 94 % smaller 25 % smaller yes" in said
+    assert "Its size is possible, and not at an end of what was searched yes yes yes" in said
+
+
 def test_of_two_effects_the_second_is_asked_for_by_itself() -> None:
     told = example_diagnosis("ambiguous")
     alone = example_details("ambiguous")
-    both = alone.model_copy(update={"second_confirmed": False})
+    failed = RuleRow(rule="confirmed", found=None, needed=None, passed=False)
+    both = alone.model_copy(update={"rules": (*alone.rules, failed)})
     asked = "… and better with both effects than with one"
     assert asked not in words_of(render_html(diagnosis_document(told, alone)))
     said = words_of(render_html(diagnosis_document(told, both)))
-    assert f"{asked} too few modes show it yes no" in said
+    assert f"{asked} no yes no" in said
+
+
+def test_results_that_do_not_tell_the_rules_are_still_shown() -> None:
+    old = example_details("named").model_copy(update={"rules": ()})
+    said = words_of(render_html(diagnosis_document(example_diagnosis("named"), old)))
+    assert "How sure the diagnosis is" in said
+    assert "passes every one of these tests" not in said
 
 
 @pytest.mark.parametrize(

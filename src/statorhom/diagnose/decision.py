@@ -65,8 +65,12 @@ class Evidence:
     @property
     def detected(self) -> bool:
         """Rule 1, and the first part of rule 2: something is missing."""
-        least = OVER_ADEQUATE if self.nothing_adequacy > AS_IT_SHOULD else OVER_NOTHING
-        return not self.by_chance and self.over_nothing > least
+        return not self.by_chance and self.over_nothing > self.least_over_nothing
+
+    @property
+    def least_over_nothing(self) -> float:
+        """Log evidence that is asked for."""
+        return OVER_ADEQUATE if self.nothing_adequacy > AS_IT_SHOULD else OVER_NOTHING
 
     @property
     def predicts(self) -> bool:
@@ -102,7 +106,12 @@ class Evidence:
         What leaves more than noise does has to be as far ahead of that as it is of nothing: lumps in several places
         look like one, and a mass on a spring like a rigid one, but not quite.
         """
-        return self.over_discrepancy > (0.0 if self.adequacy > AS_IT_SHOULD else OVER_NOTHING)
+        return self.over_discrepancy > self.least_over_discrepancy
+
+    @property
+    def least_over_discrepancy(self) -> float:
+        """Log evidence that is asked for."""
+        return 0.0 if self.adequacy > AS_IT_SHOULD else OVER_NOTHING
 
     @property
     def undecided(self) -> bool:

@@ -38,6 +38,7 @@ from statorhom.diagnose.leading_effects import Leading, leading_effects
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.next_measurement import Choice
 from statorhom.diagnose.one_line_errors import one_line_errors
+from statorhom.diagnose.passed_rules import rule_rows
 from statorhom.diagnose.place_rows import summaries
 from statorhom.diagnose.report_rows import (
     as_declared,
@@ -277,6 +278,7 @@ def _details(approach: Approach, files: StudyFiles, found: Found, choice: Choice
         seconds=seconds,
         simpler=_simpler(found),
         second_confirmed=e.confirmed if len(best.candidates) > 1 else None,
+        rules=rule_rows(e, pair=len(best.candidates) > 1),
         options=choice.options,
         **approach.pictures(files, found.base.refit, best, found.verdict == "named", found.verdict != "none"),
         summaries=summaries(tuple(dict.fromkeys(n for x in found.explanations for n in x.effects)), files),

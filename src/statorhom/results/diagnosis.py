@@ -140,6 +140,25 @@ class ScanRow(_Part):
     gain: float
 
 
+class RuleRow(_Part):
+    """A rule of the decision: what was found, what was needed (None: yes), whether it is passed (None: untested)."""
+
+    rule: Literal[
+        "chance",
+        "nothing",
+        "others",
+        "discrepancy",
+        "held_out",
+        "confirmed",
+        "adequacy",
+        "within",
+        "stability",
+    ]
+    found: float | None
+    needed: float | None
+    passed: bool | None
+
+
 class MapRow(_Part):
     """Where one test's shapes contradict the declared model: share of the error by region, angle and height."""
 
@@ -226,7 +245,7 @@ class SimplerRow(_Part):
 class Details(_Part):
     """The numbers behind a diagnosis; `second_confirmed` of two effects, None of others.
 
-    `over_discrepancy` is None in results of versions that did not ask.
+    `over_discrepancy` is None and `rules` empty in results of versions that did not write them.
     """
 
     p_value: float
@@ -254,6 +273,7 @@ class Details(_Part):
     refit_note: str | None = None
     simpler: SimplerRow | None = None
     second_confirmed: bool | None = None
+    rules: tuple[RuleRow, ...] = ()
     over_discrepancy: float | None = None
 
 

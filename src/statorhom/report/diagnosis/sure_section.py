@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from statorhom.report.diagnosis.words import effect_words
 from statorhom.report.document import (
     Block,
@@ -20,9 +22,25 @@ from statorhom.report.document import (
     warning,
 )
 from statorhom.report.figures.canvas import FONT_PT, PRIOR, SIMULATED, new_figure, safe, svg, tidy
-from statorhom.results.diagnosis import Details, Diagnosis
+from statorhom.results.diagnosis import Details, Diagnosis, RuleRow
 
 MOST = 8
+STRICT = (
+    "An effect is named only if it passes every one of these tests. They are strict on purpose: a wrong name costs "
+    "more than an open question."
+)
+WORDS = {
+    "chance": "Its trace in the data is no accident",
+    "nothing": "The data prefer it to “nothing”",
+    "others": "… and to every other effect",
+    "discrepancy": "… and to something else that moves each mode by chance",
+    "held_out": "Modes that it was not fitted to are predicted better",
+    "confirmed": "… and better with both effects than with one",
+    "adequacy": "What remains is no more than chance",
+    "within": "Its size is possible, and not at an end of what was searched",
+    "stability": "Resampled data give the same answer",
+}
+ODDS = ("nothing", "others", "discrepancy")  # rules of log evidence
 
 
 def sure_section(d: Diagnosis, e: Details) -> Section:
@@ -34,15 +52,8 @@ def sure_section(d: Diagnosis, e: Details) -> Section:
     chances += [(a.effect, a.probability, False) for a in d.alternatives]
     if len(chances) > 1:
         blocks.append(_chances(chances[:MOST]))
-    blocks.append(
-        Paragraph(
-            text(
-                "An effect is named only if it passes every one of these tests. They are strict on purpose: a wrong "
-                "name costs more than an open question."
-            )
-        )
-    )
-    blocks.append(_rules(d, e))
+    if e.rules:
+        blocks += [Paragraph(text(STRICT)), _rules(e.rules, e.nothing_adequacy)]
     if e.confusions and d.verdict in ("named", "ambiguous"):
         items = tuple(
             (text(strong(effect_words(name))), text(f"told apart by: {how}")) for name, how in e.confusions
@@ -78,70 +89,43 @@ def _chances(chances: list[tuple[str, float, bool]]) -> Picture:
     return Picture(svg(figure), "svg", 140.0, "probabilities of the explanations")
 
 
-def _rules(d: Diagnosis, e: Details) -> Table:
-    fall = _fall(d)
-    better = "–" if fall is None else f"error {100 * fall:.0f} % smaller" if fall >= 0 else "error larger"
-    rows: list[tuple[str, str, str, bool | None]] = [
-        (
-            "Its trace in the data is no accident",
-            f"chance {_chance(e.p_value)}",
-            "below 1 in 100",
-            e.p_value < 0.01,
-        ),
-        (
-            "The data prefer it to “nothing”",
-            f"odds {_odds(e.over_nothing)}",
-            "over 148 : 1",
-            e.over_nothing > 5,
-        ),
-        ("… and to every other effect", f"odds {_odds(e.over_others)}", "over 20 : 1", e.over_others > 3),
-        (
-            "Modes that it was not fitted to are predicted better",
-            better,
-            "25 % smaller",
-            None if fall is None else fall >= 0.25,
-        ),
-        (
-            "What remains is no more than chance",
-            f"chance {_chance(e.adequacy)}",
-            "above 1 in 100",
-            e.adequacy > 0.01,
-        ),
-        (
-            "Resampled data give the same answer",
-            f"{100 * e.stability:.0f} %",
-            "at least 80 %",
-            e.stability >= 0.8,
-        ),
-    ]
-    if e.over_discrepancy is not None:
-        least, needed = (0.0, "over 1 : 1") if e.adequacy > 0.1 else (5.0, "over 148 : 1")
-        own = (
-            "… and to something else that moves each mode by chance",
-            f"odds {_odds(e.over_discrepancy)}",
-            needed,
-            e.over_discrepancy > least,
-        )
-        rows.insert(3, own)
-    if e.second_confirmed is not None:
-        found = "yes" if e.second_confirmed else "too few modes show it"
-        rows.insert(-2, ("… and better with both effects than with one", found, "yes", e.second_confirmed))
+def _rules(rules: Sequence[RuleRow], nothing_adequacy: float) -> Table:
     head = (
         Column(text("test")),
         Column(text("found"), "right"),
         Column(text("needed"), "right"),
         Column(text("passed"), "center"),
     )
-    body = tuple(Row((text(a), text(b), text(c), _passed(ok))) for a, b, c, ok in rows)
-    alone = _chance(e.nothing_adequacy)
+    body = tuple(
+        Row((text(WORDS[r.rule]), text(_found(r)), text(_needed(r)), _passed(r.passed))) for r in rules
+    )
+    alone = _chance(nothing_adequacy)
     caption = f"For the explanation that fits best. Chance of the misfit, if the declared model were right: {alone}."
     return Table(head, body, text(caption))
 
 
-def _fall(d: Diagnosis) -> float | None:
-    """Part by which the error of what was held out falls."""
-    h = d.fit.held_out
-    return None if h is None or h.before_rms_percent <= 0 else 1 - h.after_rms_percent / h.before_rms_percent
+def _found(r: RuleRow) -> str:
+    value = r.found
+    if value is None:
+        return "–" if r.passed is None else "yes" if r.passed else "no"
+    if r.rule == "held_out":
+        return f"error {100 * value:.0f} % smaller" if value >= 0 else "error larger"
+    if r.rule == "stability":
+        return f"{100 * value:.0f} %"
+    return f"odds {_odds(value)}" if r.rule in ODDS else f"chance {_chance(value)}"
+
+
+def _needed(r: RuleRow) -> str:
+    value = r.needed
+    if value is None:
+        return "–" if r.passed is None else "yes"
+    if r.rule == "held_out":
+        return f"{100 * value:.0f} % smaller"
+    if r.rule == "stability":
+        return f"at least {100 * value:.0f} %"
+    if r.rule in ODDS:
+        return f"over {_odds(value)}"
+    return f"{'below' if r.rule == 'chance' else 'above'} {_chance(value)}"
 
 
 def _passed(ok: bool | None) -> Text:
@@ -166,6 +150,6 @@ def _odds(log: float) -> str:
 
 def _count(number: float) -> str:
     if number < 10:
-        return f"{number:.1f}"
+        return f"{number:.1f}".removesuffix(".0")
     digits = f"{number:.2g}"
     return f"{float(digits):,.0f}".replace(",", " ")
