@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-
-import numpy as np
+from math import exp, log
+from statistics import fmean
 
 from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.measured import MeasuredTest
@@ -95,9 +95,7 @@ def free_losses(
         if mean is None:
             continue
         if key in losses:
-            found.append(
-                Feature("loss", test.name, key, float(np.log(mean)), float(np.log(losses[key])), LOSS_SD)
-            )
+            found.append(Feature("loss", test.name, key, log(mean), log(losses[key]), LOSS_SD))
         else:
             found.append(Feature("loss", test.name, key, 0.0, 0.0, 1.0, lost=True))
     return found
@@ -106,7 +104,7 @@ def free_losses(
 def mean_loss(measured: Sequence[MeasuredMode], keys: Sequence[ModeKey | None], key: ModeKey) -> float | None:
     """Geometric mean of the loss factors of a mode's lines; None where none was measured."""
     own = [m.loss_factor for m, k in zip(measured, keys, strict=True) if k == key and m.loss_factor]
-    return float(np.exp(np.mean(np.log(own)))) if own else None
+    return exp(fmean(map(log, own))) if own else None
 
 
 def supported_losses(
@@ -141,6 +139,6 @@ def supported_losses(
         # shapes that bear no name lose as those that do
         own = sum(share * losses[k] for k, share in shares.items()) / whole
         loss = max((1.0 - springs) * own + springs * support, LEAST)
-        seen, told = float(np.log(mode.loss_factor)), float(np.log(loss))
+        seen, told = log(mode.loss_factor), log(loss)
         found.append(Feature("loss", test.name, key, seen, told, LOSS_SD, rows=(mode.label,)))
     return found
