@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from example_evidence import FALLS, GOOD, GROUPS
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -13,8 +14,6 @@ from statorhom.diagnose.held_out import HeldOut
 from statorhom.diagnose.passed_rules import rule_rows
 from statorhom.results.diagnosis import RuleRow
 
-GROUPS = tuple(("test", (r, 0, 0)) for r in range(2, 8))
-FALLS = HeldOut(GROUPS, (2.0, 3.0, 1.5, 2.5, 2.0, 3.0), (0.2, 0.3, 0.1, 0.2, 0.3, 0.2), (0.1,) * 6)
 CHANCES = st.sampled_from([1e-12, 1e-3, 0.009, 0.011, 0.05, 0.3, 0.9])
 ERRORS = st.sampled_from([0.02, 0.1, 0.3, 1.0, 3.0])
 EVIDENCE = st.builds(
@@ -50,21 +49,6 @@ def row(evidence: Evidence, rule: str) -> RuleRow:
 def test_what_passes_every_rule_is_named_and_nothing_else(evidence: Evidence) -> None:
     rows = rule_rows(evidence, pair=True)
     assert (decide(evidence) == "named") == all(r.passed for r in rows)
-
-
-GOOD = Evidence(
-    p_value=1e-3,
-    unpaired=False,
-    over_nothing=40.0,
-    over_others=12.0,
-    over_discrepancy=20.0,
-    held_out=FALLS,
-    adequacy=0.4,
-    nothing_adequacy=1e-9,
-    nothing_but_one=1e-9,
-    within=True,
-    stability=1.0,
-)
 
 
 def test_all_are_passed_where_an_effect_is_named() -> None:
