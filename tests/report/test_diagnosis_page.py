@@ -109,7 +109,7 @@ def test_of_two_effects_the_second_is_asked_for_by_itself() -> None:
     asked = "… and better with both effects than with one"
     assert asked not in words_of(render_html(diagnosis_document(told, alone)))
     said = words_of(render_html(diagnosis_document(told, both)))
-    assert f"{asked} no yes no" in said
+    assert f"{asked} too few modes show it yes no" in said
 
 
 def test_results_that_do_not_tell_the_rules_are_still_shown() -> None:

@@ -55,8 +55,7 @@ def _held_out(e: Evidence, *, far: bool) -> RuleRow:
     unseen = e.held_out
     if unseen is None or unseen.before_rms <= 0.0:
         return RuleRow(rule="held_out", found=None, needed=None, passed=None)
-    lines = unseen.of_lines and unseen.falls and not unseen.worsens
-    better = e.predicts or far or lines
+    better = far or (unseen.falls and not unseen.worsens)
     return RuleRow(
         rule="held_out",
         found=1 - unseen.after_rms / unseen.before_rms,

@@ -226,8 +226,8 @@ def _rated(
     stage: StageModel, materials: Materials, action: Action, names: Names | None
 ) -> dict[ModeKey, _Symmetric]:
     """Modes of a stator whose moduli follow the frequency: f with f = f(moduli at f), interpolated in ln f."""
-    several = [at_rate(materials, action.modulus_at, rate) for rate in RATE_HZ]
-    tables = [named(stage.solve(each, _problems(names)).modes, names) for each in several]
+    several, problems = [at_rate(materials, action.modulus_at, rate) for rate in RATE_HZ], _problems(names)
+    tables = [named(stage.solve(each, problems).modes, names) for each in several]
     logs = self_consistent(np.log(RATE_HZ), tables)
     # the modes' places are those of the moduli as they stand
     here = tables[AS_DECLARED]

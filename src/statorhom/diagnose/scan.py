@@ -169,8 +169,8 @@ def _first_ones_first(
 ) -> list[FloatArray | None]:
     """Changes at all places; what all those of a candidate need is made by its first one, and remembered here."""
     first = {candidate.label: i for i, (candidate, _) in reversed(list(enumerate(places)))}.values()
-    apart = [i for i in first if hypothesis.memories and meshes(places[i])]
-    apart.sort(key=lambda i: -meshes(places[i]))
+    prices = {i: meshes(places[i]) for i in first} if hypothesis.memories else {}
+    apart = sorted((i for i, price in prices.items() if price), key=lambda i: -prices[i])
     dear = remembering(change, [places[i] for i in apart], hypothesis.memories, hypothesis.shared)
     known = dict(zip(apart, dear, strict=True))
     known |= {i: change(places[i]) for i in first if i not in known}

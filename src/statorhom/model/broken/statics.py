@@ -23,7 +23,6 @@ from statorhom.model.broken.waves import Waves
 
 DEPENDENT = 1e-24  # squared part of the largest stiffness or mass below which a motion carries neither
 
-
 Loads = Mapping[bool, np.ndarray]
 
 

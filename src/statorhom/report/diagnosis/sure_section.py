@@ -40,6 +40,7 @@ WORDS = {
     "within": "Its size is possible, and not at an end of what was searched",
     "stability": "Resampled data give the same answer",
 }
+FAILED = {"confirmed": "too few modes show it"}  # why, where it is no number
 ODDS = ("nothing", "others", "discrepancy")  # rules of log evidence
 
 
@@ -107,7 +108,7 @@ def _rules(rules: Sequence[RuleRow], nothing_adequacy: float) -> Table:
 def _found(r: RuleRow) -> str:
     value = r.found
     if value is None:
-        return "–" if r.passed is None else "yes" if r.passed else "no"
+        return "–" if r.passed is None else "yes" if r.passed else FAILED.get(r.rule, "no")
     if r.rule == "held_out":
         return f"error {100 * value:.0f} % smaller" if value >= 0 else "error larger"
     if r.rule == "stability":
