@@ -89,7 +89,7 @@ def on_the_mesh(width: float, ratio: float, highest_hz: float = 3000.0) -> np.nd
     joint = contact(half, WOUND, BOND, BOND)
     full_basis = symmetric_basis(assemble(half), MATERIALS, highest_hz, margin=1.5, contact=joint.matrix)
     share = Sectors(np.array([[0.0, np.pi / SLOTS]]), SLOTS).share_of_arc(-width / 2, width / 2)
-    weights = np.repeat((ratio - 1) * share, len(joint.pieces), axis=0)
+    weights = np.repeat(ratio**share - 1, len(joint.pieces), axis=0)
     return solve_broken(full_basis, [PieceChange(joint.pieces, None, weights)]).frequencies_hz
 
 

@@ -1,7 +1,7 @@
 """A contact that is weaker over an arc: what that does to the modes of the even one.
 
 It couples the harmonics of one axial parity. An arc around θ = 0 is its own mirror image, which keeps cosine and sine
-shapes apart. All faces of a half pitch weaken alike, by the share of it that the arc covers.
+shapes apart. All faces of a half pitch weaken alike.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from statorhom.model.stator_mode import StatorMode
 from statorhom.physics.action import Joint
 
 LEAST = 0.2  # share of a mode of the even contact that a mode of the weakened one must keep to bear its name
+REACH = 1.3  # λ of the highest mode that is sought over that of the band's end
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,11 +32,13 @@ class Family:
 
     Parameters
     ----------
+    even : modes of the even one.
     starts : problem → where its coordinates begin.
-    values : (m,) λ.
-    coordinates : (n, m) in the modes of the even contact.
+    values : (m,) λ, up to somewhat above the band.
+    coordinates : (n, m) in the even contact's.
     """
 
+    even: RingModes
     starts: dict[int, int]
     values: np.ndarray
     coordinates: np.ndarray
@@ -43,8 +46,19 @@ class Family:
     def of(self, mode: StatorMode) -> int | None:
         """Number of the mode that is most of a mode of the even contact."""
         weight = self.coordinates[self.starts[mode.problem] + mode.column] ** 2
+        if len(weight) == 0:
+            return None
         best = int(np.argmax(weight))
         return best if weight[best] >= LEAST and self.values[best] > 0 else None
+
+    def slope(self, number: int, materials: Materials) -> np.ndarray:
+        """d ln f of a mode by the Hooke entries and the density of all regions, one after the other."""
+        total = np.zeros(10 * len(materials))
+        for problem, start in self.starts.items():
+            vectors = self.even.vectors[problem]
+            x = vectors @ self.coordinates[start : start + vectors.shape[1], number]
+            total += self.even.problems[problem].slope(x, float(self.values[number]), materials)
+        return total
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,9 +81,8 @@ class JoinedMode:
 
 @dataclass(frozen=True, eq=False)
 class Weakened:
-    """All modes of one axial parity."""
+    """All modes of one axial parity: cosine and sine shapes."""
 
-    even: RingModes
     families: tuple[Family, ...]
 
     def response(self, members: Sequence[int], materials: Materials) -> tuple[float, complex, np.ndarray]:
@@ -84,7 +97,7 @@ class Weakened:
         mean = float(np.mean(values))
         split = complex((values[0] - values[1]) / mean) if len(values) == 2 else 0j
         slopes = [
-            value / mean * self.slope(family, i, materials)
+            value / mean * family.slope(i, materials)
             for value, (family, i) in zip(values, parts, strict=True)
         ]
         return 0.5 * float(np.log(mean)) - float(np.log(2 * np.pi)), split, np.mean(slopes, axis=0)
@@ -92,15 +105,6 @@ class Weakened:
     def members(self, mode: StatorMode) -> list[int | None]:
         """Of each family that a mode of the even contact has a shape in, the number of the mode that is most of it."""
         return [family.of(mode) for family in self.families[: mode.multiplicity]]
-
-    def slope(self, family: Family, number: int, materials: Materials) -> np.ndarray:
-        """d ln f of a family's mode by the materials."""
-        total = np.zeros(10 * len(materials))
-        for problem, start in family.starts.items():
-            vectors = self.even.vectors[problem]
-            x = vectors @ family.coordinates[start : start + vectors.shape[1], number]
-            total += self.even.problems[problem].slope(x, float(family.values[number]), materials)
-        return total
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,6 +117,7 @@ class ArcGroup:
     cosine, sine : those of them with cosine and with sine shapes.
     waves : their bases.
     pieces : of the contact, normal and tangential.
+    highest_hz : end of the band.
     """
 
     numbers: tuple[int, ...]
@@ -120,6 +125,7 @@ class ArcGroup:
     sine: tuple[int, ...]
     waves: Waves
     pieces: tuple[Pieces, Pieces]
+    highest_hz: float
     _grams: GramCache = field(default_factory=GramCache, repr=False)
     _last: dict[str, tuple[RingModes, Joint, Weakened]] = field(default_factory=dict, repr=False)
 
@@ -138,35 +144,51 @@ class ArcGroup:
         return known[2]
 
     def _solved(self, even: RingModes, joint: Joint) -> Weakened:
-        share = arc_share(joint, self.waves.slots)[None, :]
-        change = np.zeros((len(self.waves), len(self.waves)))
-        for stiffness, pieces in zip((joint.normal, joint.tangential), self.pieces, strict=True):
-            weights = np.repeat((joint.ratio - 1.0) * stiffness * share, len(pieces), axis=0)
-            change += project(self._grams, pieces, weights, self.waves, self.waves)
-        count = len(self.waves.cosine)
-        blocks = ((self.cosine, change[:count, :count]), (self.sine, change[count:, count:]))
-        return Weakened(even, tuple(_family(even, numbers, block) for numbers, block in blocks))
+        change = arc_change(joint, self.waves.slots)
+        normal, tangential = (self.contact(number, change) for number in range(2))
+        blocks = [joint.normal * n + joint.tangential * t for n, t in zip(normal, tangential, strict=True)]
+        top = REACH * (2 * np.pi * self.highest_hz) ** 2
+        families = zip((self.cosine, self.sine), blocks, strict=True)
+        return Weakened(tuple(_family(even, numbers, block, top) for numbers, block in families))
+
+    def contact(self, number: int, share: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Pieces of unit stiffness between cosine and between sine coordinates.
+
+        Parameters
+        ----------
+        number : of the pieces.
+        share : (2 N,) of them that counts in every half pitch.
+        """
+        pieces = self.pieces[number]
+        weights = np.repeat(share[None, :], len(pieces), axis=0)
+        whole, count = project(self._grams, pieces, weights, self.waves, self.waves), len(self.waves.cosine)
+        return whole[:count, :count], whole[count:, count:]
 
 
-def arc_share(joint: Joint, slots: int) -> np.ndarray:
-    """(2 N,) share of every half pitch that an arc of the joint's width around θ = 0 covers."""
+def arc_change(joint: Joint, slots: int) -> np.ndarray:
+    """(2 N,) relative change of every half pitch's contact by an arc of the joint's width around θ = 0.
+
+    At the arc's ends the contact falls geometrically with the share of the half pitch that is covered: in proportion,
+    all but a thousandth would hold nearly as well as all of it, and an arc's width would be told in whole walls.
+    """
     assert joint.arc is not None
     half = Sectors(np.array([[0.0, np.pi / slots]]), slots)
-    return half.share_of_arc(-0.5 * joint.arc[1], 0.5 * joint.arc[1])[0]
+    share = half.share_of_arc(-0.5 * joint.arc[1], 0.5 * joint.arc[1])[0]
+    return np.asarray(joint.ratio**share - 1.0)
 
 
-def _family(even: RingModes, numbers: tuple[int, ...], change: np.ndarray) -> Family:
+def _family(even: RingModes, numbers: tuple[int, ...], change: np.ndarray, top: float) -> Family:
     vectors = block_diag(*[even.vectors[n] for n in numbers])
     K = vectors.T @ change @ vectors + np.diag(np.concatenate([even.values[n] for n in numbers]))
     try:
-        values, x = eigh((K + K.T) / 2)
+        values, x = eigh((K + K.T) / 2, subset_by_value=(-np.inf, top))
     except np.linalg.LinAlgError:
         raise SolverError("a weakened contact has no modes; check its stiffness") from None
     starts, first = {}, 0
     for n in numbers:
         starts[n] = first
         first += len(even.values[n])
-    return Family(starts, values, x)
+    return Family(even, starts, values, x)
 
 
 def arc_groups(ring: RingBasis, pieces: tuple[Pieces, Pieces]) -> tuple[ArcGroup, ...]:
@@ -188,5 +210,5 @@ def arc_groups(ring: RingBasis, pieces: tuple[Pieces, Pieces]) -> tuple[ArcGroup
         )
         cosine = tuple(n for n in numbers if ring.problems[n].space.parity != "odd")
         sine = tuple(n for n in numbers if ring.problems[n].space.parity != "even")
-        found.append(ArcGroup(tuple(numbers), cosine, sine, waves, pieces))
+        found.append(ArcGroup(tuple(numbers), cosine, sine, waves, pieces, ring.highest_hz))
     return tuple(found)

@@ -16,9 +16,11 @@ import numpy as np
 from statorhom.diagnose.feature import SINGLE
 from statorhom.diagnose.joint_arc import ArcGroup, JoinedMode, Weakened, arc_groups
 from statorhom.diagnose.joint_born import born_modes, surface
+from statorhom.diagnose.joint_condensed import CondensedGroup, Sample, condensed
 from statorhom.diagnose.joint_fields import with_local_fields
 from statorhom.diagnose.joint_training import with_arcs
 from statorhom.diagnose.ring_basis import RingBasis, RingModes, mark_of, ring_basis
+from statorhom.diagnose.side_by_side import side_by_side
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Materials, assemble
 from statorhom.model.blas_threads import one_blas_thread
@@ -43,11 +45,13 @@ class JointBasis:
     ring : on the split mesh, without the contact.
     pieces : of the half pitch, normal and tangential contact per unit stiffness (m²).
     springs : (2, k, k) per problem, the same in the bases.
+    few : the groups that an arc couples, in few vectors; empty where all of the bases count.
     """
 
     ring: RingBasis
     pieces: tuple[Pieces, Pieces]
     springs: tuple[np.ndarray, ...]
+    few: tuple[CondensedGroup, ...] = ()
     _latest: Kept = field(default_factory=partial(Kept, SOLUTIONS), repr=False)
 
     @cached_property
@@ -88,8 +92,8 @@ class JointBasis:
         found: dict[ModeKey, JoinedMode] = {}
         born: list[JoinedMode] = []
         place = len(self.ring.problems)
-        for group in self.groups:
-            weakened = group.weakened(even, joint)
+        for number, group in enumerate(self.groups):
+            weakened = self._weakened(number, even, materials, joint)
             own = {key: mode for key, mode in keys.items() if mode.problem in group.numbers}
             named, others = self._named(weakened, own, place, materials)
             found |= named
@@ -97,11 +101,37 @@ class JointBasis:
             place += len(weakened.families)
         return found | _with_names(born)
 
+    def _weakened(self, number: int, even: RingModes, materials: Materials, joint: Joint) -> Weakened:
+        """Modes of one group."""
+        if self.few:
+            return self.few[number].weakened(even, joint, materials)
+        return self.groups[number].weakened(even, joint)
+
+    def condensed(self, samples: Sequence[tuple[Materials, Joint]]) -> JointBasis:
+        """The same in the few vectors that the modes at some materials and arcs span; nearly right between them."""
+        top = (2 * np.pi * self.ring.highest_hz) ** 2
+        solved = side_by_side(self._weakened_groups, samples, self.ring.problems)
+        columns = zip(self.groups, zip(*solved, strict=True), strict=True)
+        few = [
+            condensed(
+                g, self.ring.problems, [Sample(m, w) for (m, _), w in zip(samples, own, strict=True)], top
+            )
+            for g, own in columns
+        ]
+        return JointBasis(self.ring, self.pieces, self.springs, tuple(few))
+
+    def _weakened_groups(self, sample: tuple[Materials, Joint]) -> list[Weakened]:
+        materials, joint = sample
+        with one_blas_thread():
+            even = self._even(materials, replace(joint, arc=None))
+            still = replace(joint, arc=(0.0, joint.arc[1]) if joint.arc else None)
+            return [group.weakened(even, still) for group in self.groups]
+
     def _named(
         self, weakened: Weakened, keys: Mapping[ModeKey, StatorMode], place: int, materials: Materials
     ) -> tuple[dict[ModeKey, JoinedMode], list[JoinedMode]]:
         """Modes of one axial parity that look like the even contact's, and all others."""
-        surfaces = [surface(weakened.even, family, self.ring.highest_hz) for family in weakened.families]
+        surfaces = [surface(family, self.ring.highest_hz) for family in weakened.families]
         found: dict[ModeKey, JoinedMode] = {}
         known: list[set[int]] = [set() for _ in surfaces]
         for key, mode in keys.items():

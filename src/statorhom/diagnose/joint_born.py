@@ -13,7 +13,6 @@ from math import log
 import numpy as np
 
 from statorhom.diagnose.joint_arc import Family, JoinedMode, Weakened
-from statorhom.diagnose.ring_basis import RingModes
 from statorhom.model.affine import Materials
 from statorhom.model.eigen import frequency_hz
 from statorhom.model.radial_profile import node_planes
@@ -38,12 +37,12 @@ class Surface:
         return number >= len(self.order) or bool(mode.order == self.order[number])
 
 
-def surface(even: RingModes, family: Family, highest_hz: float) -> Surface:
+def surface(family: Family, highest_hz: float) -> Surface:
     """Of the modes of the band."""
     count = int(np.count_nonzero(frequency_hz(family.values) <= highest_hz))
     orders, parts = [], []
     for problem, start in family.starts.items():
-        vectors, own = even.vectors[problem], even.problems[problem]
+        vectors, own = family.even.vectors[problem], family.even.problems[problem]
         x = vectors @ family.coordinates[start : start + vectors.shape[1], :count]
         orders.append(own.space.order)
         parts.append(own.profile @ x)
@@ -83,5 +82,5 @@ def born_modes(
         if i in named or f < RIGID_HZ or visibility[i] <= VISIBLE:
             continue
         mode = StatorMode(f, int(seen.order[i]), axial[i], "radial", visibility[i], 1, place, i)
-        found.append(JoinedMode(mode, log(f), 0j, weakened.slope(family, i, materials)))
+        found.append(JoinedMode(mode, log(f), 0j, family.slope(i, materials)))
     return found

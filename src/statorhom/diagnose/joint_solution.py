@@ -15,8 +15,9 @@ import scipy.sparse as sp
 from scipy.linalg import eigh
 from scipy.sparse.linalg import SuperLU, splu
 
-from statorhom.diagnose.joint_arc import Family, arc_groups, arc_share
+from statorhom.diagnose.joint_arc import Family, arc_change, arc_groups
 from statorhom.diagnose.ring_basis import RingBasis, RingModes, RingProblem
+from statorhom.diagnose.side_by_side import side_by_side
 from statorhom.model.affine import Materials
 from statorhom.model.broken.pieces import Pieces
 from statorhom.model.harmonic import Harmonic
@@ -130,20 +131,14 @@ class Arcs:
 
     def parts(self, trainings: Sequence[Joint]) -> Parts:
         """Of all trainings' modes, per problem."""
-        found: Parts = [np.zeros((p.space.size, 0)) for p in self.problems]
-        for joint in trainings:
-            begun = [
-                p.joined(b.basis, f, PARTS)
-                for p, b, f in zip(self.problems, self.ring.problems, found, strict=True)
-            ]
-            own = self._solved(joint, begun)
-            found = [np.hstack(pair) for pair in zip(found, own, strict=True)]
-        return found
+        assert self.problems and self.touched.size and self.intact.nnz  # made once, before processes part
+        own = side_by_side(self._solved, trainings)
+        return [np.hstack(parts) for parts in zip(*own, strict=True)]
 
-    def _solved(self, joint: Joint, bases: Parts) -> Parts:
+    def _solved(self, joint: Joint) -> Parts:
         """Modes of one arc."""
         plain = [b.basis for b in self.ring.problems]
-        before: Parts = [np.zeros((p.space.size, 0)) for p in self.problems]
+        bases, before = plain, [np.zeros((p.space.size, 0)) for p in self.problems]
         for _ in range(ROUNDS):
             parts, forces = self._modes(joint, bases)
             # the last two solutions and their answers: the step that led here is not undone
@@ -200,7 +195,7 @@ class Arcs:
         turned = -1j * phases if sine else phases
         local = np.stack([spaces[n].expand(y)[self.touched] for n, y in motions.items()])
         straight, mirrored = (np.tensordot(turned, u, axes=1).real for u in (local, np.conj(local)))
-        change = (joint.ratio - 1.0) * arc_share(joint, slots)
+        change = arc_change(joint, slots)
         pulled, pushed = (
             np.tensordot(np.conj(turned).T * w, u, axes=1)
             for w, u in ((change[0::2], straight), (change[1::2], mirrored))

@@ -41,7 +41,7 @@ MOVED = (
 WORSE = 10.0  # of the objective, by which a model of its own is worse than the common one
 VAGUE = 1.0  # prior standard deviation of a logarithm from which on a constant may be far on either side
 ASIDE = 1.5  # prior standard deviations to either side where such a constant is tried
-WIDER = 1.1  # arcs at which a contact that is lost over an arc is solved, beside its own
+AROUND = 1 / 1.1, 1.1  # times its own arc, at which a contact that is lost over one is solved
 BEHIND = 150.0  # log evidence by which others are too far behind for that
 
 
@@ -118,9 +118,24 @@ def _sharpened(explanation: Explanation) -> Explanation:
     return replace(explanation, refit=again)
 
 
-def in_its_own_model(r: Refit, *, mesh_known: bool = False) -> Hypothesis:
-    """With basis and, unless the old ones do, mesh factors of its own materials; to be paired anew."""
-    hypothesis, arcs, stages = r.hypothesis, _arcs(r.hypothesis.actions(r.z)), []
+def in_its_own_model(
+    r: Refit,
+    *,
+    mesh_known: bool = False,
+    arcs: tuple[tuple[float, float], ...] = (),
+    around: tuple[float, ...] = AROUND,
+) -> Hypothesis:
+    """With basis and, unless the old ones do, mesh factors of its own materials; to be paired anew.
+
+    Parameters
+    ----------
+    r : what, and where.
+    mesh_known : whether the old mesh factors do.
+    arcs : widths (rad) and ratios that a contact may be weaker over, beside those of the effects.
+    around : times an effect's own arc, at which its contact is solved.
+    """
+    hypothesis, stages = r.hypothesis, []
+    arcs = (*arcs, *_arcs(hypothesis.actions(r.z), around))
     for stage, materials in _acted(r):
         near = with_reference(stage, materials, arcs)
         if not mesh_known:
@@ -129,12 +144,12 @@ def in_its_own_model(r: Refit, *, mesh_known: bool = False) -> Hypothesis:
     return replace(hypothesis, study=hypothesis.study.with_stages(tuple(stages)), held=None)
 
 
-def _arcs(actions: Sequence[Action]) -> tuple[tuple[float, float], ...]:
-    """Widths and ratios on either side of those of a contact that is weaker over an arc."""
+def _arcs(actions: Sequence[Action], around: Sequence[float]) -> tuple[tuple[float, float], ...]:
+    """Widths and ratios around those of a contact that is weaker over an arc."""
     arcs = [
         (a.joint.arc[1], a.joint.ratio) for a in actions if a.joint is not None and a.joint.arc is not None
     ]
-    return tuple((min(w * f, 2 * np.pi), q / f**2) for w, q in arcs for f in (1 / WIDER, WIDER))
+    return tuple((min(w * f, 2 * np.pi), q / f**2) for w, q in arcs for f in around)
 
 
 def refined(

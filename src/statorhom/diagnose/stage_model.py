@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import Any
@@ -136,17 +136,33 @@ class StageModel:
 
     def joined(self, joint: Joint) -> JointBasis:
         """Modes with a contact around some regions, the same all around or weaker over arcs like those of `arcs`."""
-        used = tuple(r for r in joint.regions if r in self.model.mesh.regions)
-        # with arcs the contact elsewhere stays what it is
-        mark = used, None if joint.arc is None else (joint.normal, joint.tangential)
-        return self.memory.once(("joint", *mark), lambda: self._joined(used, joint))
+        return self.memory.once(self._mark(joint), lambda: self._joined(joint))
 
-    def _joined(self, regions: tuple[str, ...], joint: Joint) -> JointBasis:
+    def _mark(self, joint: Joint) -> Hashable:
+        # with arcs the contact elsewhere stays what it is
+        return "joint", self._used(joint), None if joint.arc is None else (joint.normal, joint.tangential)
+
+    def _used(self, joint: Joint) -> tuple[str, ...]:
+        return tuple(r for r in joint.regions if r in self.model.mesh.regions)
+
+    def condensed(self, samples: Sequence[tuple[Materials, Joint]]) -> StageModel:
+        """The stage with contacts that are lost over arcs in few vectors, good enough to tell windings apart.
+
+        Parameters
+        ----------
+        samples : at least one, of all windings and arcs that matter (`JointBasis.condensed`).
+        """
+        joint = samples[0][1]
+        memory = Memory()
+        memory.learn({self._mark(joint): self.joined(joint).condensed(samples)})
+        return replace(self, memory=memory)
+
+    def _joined(self, joint: Joint) -> JointBasis:
         differs = joint.arc is not None
         arcs = [replace(joint, arc=(0.0, w), ratio=q) for w, q in self.arcs] if differs else []
         return joint_basis(
             self.model.mesh,
-            regions,
+            self._used(joint),
             self.reference,
             self.ring.highest_hz,
             self.orders,

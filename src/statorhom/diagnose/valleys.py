@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -58,7 +58,7 @@ def optima(blank: _H, trials: Sequence[np.ndarray]) -> list[Refit[_H]]:
     found = [r for w in wide[:SHARPENED] if (r := refitted(blank, w.z)) is not None]
     if not found:
         raise IdentificationError(NO_START)
-    return _different(found)
+    return different(found)
 
 
 def wide_optima(
@@ -78,7 +78,7 @@ def wide_optima(
     """
     coarse = replace(blank, discrepancy=COARSE)
     found: list[Refit[_H]] = []
-    for number, z in enumerate(_apart(nearest_first(coarse, trials), most or starts)):
+    for number, z in enumerate(apart(nearest_first(coarse, trials), most or starts)):
         if number >= starts and any(_fits(r) for r in found):
             break
         # what promises nothing beside the best so far is not followed
@@ -86,7 +86,7 @@ def wide_optima(
         found += [r] if (r := refitted(coarse, z, worth)) is not None else []
     if not found:
         raise IdentificationError(NO_START)
-    return _different(found)
+    return different(found)
 
 
 def nearest_first(hypothesis: AnyHypothesis, points: Sequence[np.ndarray]) -> list[np.ndarray]:
@@ -108,15 +108,18 @@ def _fits(found: Refit[_H]) -> bool:
     return found.misfit < FITTING * len(found.jacobian)
 
 
-def _different(found: Sequence[Refit[_H]]) -> list[Refit[_H]]:
+def different(
+    found: Sequence[Refit[_H]], where: Callable[[Refit[_H]], np.ndarray] = lambda r: r.z
+) -> list[Refit[_H]]:
+    """Optima that are no neighbours of better ones, the best first; `where` tells the coordinates that count."""
     chosen: list[Refit[_H]] = []
     for r in sorted(found, key=lambda r: r.objective):
-        if all(np.linalg.norm(r.z - other.z) > APART for other in chosen):
+        if all(np.linalg.norm(where(r) - where(other)) > APART for other in chosen):
             chosen.append(r)
     return chosen
 
 
-def _apart(points: Sequence[np.ndarray], most: int) -> list[np.ndarray]:
+def apart(points: Sequence[np.ndarray], most: int) -> list[np.ndarray]:
     """The first points that are no neighbours of better ones."""
     chosen: list[np.ndarray] = []
     for z in points:

@@ -1,0 +1,122 @@
+"""Arcs of lost contact, sought beside windings all over the prior.
+
+A contact that is lost over a wide arc lets much of the winding go, and few frequencies tell how stiff the rest is:
+there are many valleys nearly as deep. In bases that know two such arcs, and in the few vectors that matter there,
+thousands of windings and arcs are tried where frequencies alone count, and the best of them followed. Which of the
+last ones is right shows in models of their own: there a wrong valley is left with ten times the misfit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import TypeVar
+
+import numpy as np
+from scipy.stats import norm, qmc
+
+from statorhom.diagnose.explanations import COARSE, by_degrees, refitted
+from statorhom.diagnose.few_vectors import in_few_vectors
+from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.diagnose.refit import Refit, evaluated
+from statorhom.diagnose.refit_starts import Start
+from statorhom.diagnose.sharper import in_its_own_model
+from statorhom.diagnose.side_by_side import side_by_side
+from statorhom.diagnose.valleys import FAR_BEHIND, SPREAD, apart, different, nearest_first
+from statorhom.errors import StatorhomError
+
+TRAINED = ((np.deg2rad(60.0), 1e-4), (np.deg2rad(140.0), 1e-4))  # widths and ratios that the bases know
+RANGES = {"arc_deg": (35.0, 220.0), "contact_ratio": (2e-5, 3e-3)}  # that are tried
+ANGLE = "angle_rad"
+SAMPLES = 48  # windings and arcs whose modes span the few vectors
+TRIALS, FOLLOWED = 1500, 24  # points, and those that are followed through valleys that narrow by degrees
+LEADING = 6  # whose arcs are turned to their best place
+MODELS = 2  # that are compared in models of their own
+PLACES = 24  # angles where a narrow valley begins
+SEED = 0
+
+_T = TypeVar("_T")
+
+
+def arc_beside_any_winding(start: Start, winding: Sequence[int]) -> np.ndarray | None:
+    """Coordinates of the best arc; None where no winding will do.
+
+    Parameters
+    ----------
+    start : an arc, in bases that know arcs like `TRAINED`.
+    winding : places of the constants that are sought with it.
+    """
+    few = in_few_vectors(start.hypothesis, _points(start, winding, SAMPLES, SEED + 1))
+    rough = replace(few, discrepancy=COARSE, trained=False)
+    nearest = apart(nearest_first(rough, _points(start, winding, TRIALS, SEED)), FOLLOWED)
+    found = _optima(partial(by_degrees, few), nearest, few)
+    found = _optima(_turned, found[:LEADING], few)
+    return _best(start.hypothesis, found) if found else None
+
+
+def _points(start: Start, winding: Sequence[int], count: int, seed: int) -> list[np.ndarray]:
+    """Windings all over the prior with arcs of all widths and ratios; wide valleys see no angle."""
+    known = {p.name: p for p in start.hypothesis.candidates[-1].parameters}
+    cube = qmc.LatinHypercube(len(winding) + len(RANGES), seed=seed).random(count)
+    found = []
+    for row in cube:
+        z = start.z.copy()
+        z[list(winding)] = SPREAD * norm.ppf(0.02 + 0.96 * row[: len(winding)])
+        for part, (name, (low, high)) in zip(row[len(winding) :], RANGES.items(), strict=True):
+            z[_place(start.hypothesis, name)] = known[name].internal(float(low * (high / low) ** part))
+        found.append(np.clip(z, *start.hypothesis.limits()))
+    return found
+
+
+def _place(hypothesis: Hypothesis, name: str) -> int:
+    """Of a parameter of the arc among the coordinates."""
+    names = [p.name for p in hypothesis.candidates[-1].parameters]
+    return len(hypothesis) - len(names) + names.index(name)
+
+
+def _optima(refit: Callable[[_T], Refit | None], starts: Sequence[_T], few: Hypothesis) -> list[Refit]:
+    """Different ones, the best first."""
+    found = side_by_side(refit, starts, few.shared)
+    return _different([r for r in found if r is not None])
+
+
+def _different(found: Sequence[Refit]) -> list[Refit]:
+    """Those that are no neighbours of better ones, wherever their arcs are: each was begun at its best place."""
+    return different(found, lambda r: np.delete(r.z, _place(r.hypothesis, ANGLE)))
+
+
+def _turned(found: Refit) -> Refit | None:
+    """From the best place of its arc: wide valleys see none."""
+    own = replace(found.hypothesis, held=None)
+    begun = nearest_first(own, [found.z, *_all_around(own, found.z)])
+    return refitted(own, begun[0]) if begun else None
+
+
+def _all_around(hypothesis: Hypothesis, z: np.ndarray) -> list[np.ndarray]:
+    """The same arc at every angle."""
+    place, angle = _place(hypothesis, ANGLE), {p.name: p for p in hypothesis.candidates[-1].parameters}[ANGLE]
+    turns = 2 * np.pi * np.arange(PLACES) / PLACES
+    return [np.r_[z[:place], angle.internal(float(turn)), z[place + 1 :]] for turn in turns]
+
+
+def _best(start: Hypothesis, found: Sequence[Refit]) -> np.ndarray:
+    """Of the last ones that are near each other, the one that leaves least in a model of its own."""
+    near = [r for r in found if r.objective < found[0].objective + FAR_BEHIND][:MODELS]
+    if len(near) == 1:
+        return near[0].z
+    judged = side_by_side(partial(_judged, start), [r.z for r in near])
+    return min(judged, key=lambda j: j[0])[1]
+
+
+def _judged(start: Hypothesis, z: np.ndarray) -> tuple[float, np.ndarray]:
+    """Objective and coordinates of the optimum next to some, where its materials and its arc are solved.
+
+    The model is not handed on: it is larger than what it takes to make it again once.
+    """
+    try:
+        own = in_its_own_model(evaluated(start, z), mesh_known=True, around=(1.0,))
+    except (StatorhomError, KeyError):
+        return np.inf, z
+    found = by_degrees(own, z)
+    return (np.inf, z) if found is None else (found.objective, found.z)
