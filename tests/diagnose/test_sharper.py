@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose import sharper as module
-from statorhom.diagnose.sharper import _arcs, at_its_own_materials
+from statorhom.diagnose.sharper import AROUND, _arcs, at_its_own_materials
 from statorhom.physics.action import Action, Joint
 
 WOUND = ("winding", "overhang")
@@ -20,7 +20,7 @@ def joint(width: float | None, ratio: float = 1.0) -> Action:
 
 
 def test_lost_contacts_are_solved_on_either_side_of_the_found_one() -> None:
-    narrow, wide = _arcs([Action(), joint(1.0, 1e-3)])
+    narrow, wide = _arcs([Action(), joint(1.0, 1e-3)], AROUND)
     assert narrow[0] < 1.0 < wide[0]
     assert narrow[1] > 1e-3 > wide[1]
     assert np.sqrt(narrow[0] * wide[0]) == pytest.approx(1.0)
@@ -28,11 +28,11 @@ def test_lost_contacts_are_solved_on_either_side_of_the_found_one() -> None:
 
 
 def test_no_arc_is_wider_than_the_circle() -> None:
-    assert max(width for width, _ in _arcs([joint(6.0, 0.1)])) == pytest.approx(2 * np.pi)
+    assert max(width for width, _ in _arcs([joint(6.0, 0.1)], AROUND)) == pytest.approx(2 * np.pi)
 
 
 def test_contacts_that_are_the_same_all_around_need_no_arcs() -> None:
-    assert _arcs([Action(), joint(None)]) == ()
+    assert _arcs([Action(), joint(None)], AROUND) == ()
 
 
 @pytest.mark.parametrize(
@@ -54,3 +54,7 @@ def test_what_is_reported_is_solved_at_its_own_materials(
     monkeypatch.setattr(module, "_sharpened", lambda one: steps[steps.index(one) + 1])
     begin: Any = steps[0]
     assert at_its_own_materials(begin).refit.objective == reported
+
+
+def test_an_arc_can_be_solved_as_it_is_alone() -> None:
+    assert _arcs([joint(1.0, 1e-3)], (1.0,)) == ((1.0, 1e-3),)
