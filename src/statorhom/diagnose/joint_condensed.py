@@ -15,7 +15,7 @@ import numpy as np
 from scipy.linalg import block_diag, solve_triangular
 
 from statorhom.diagnose.joint_arc import ArcGroup, Family, Weakened, arc_change
-from statorhom.diagnose.ring_basis import RingModes, RingProblem
+from statorhom.diagnose.ring_basis import RingModes, RingProblem, material_slope
 from statorhom.diagnose.small_pairs import small_pairs
 from statorhom.model.affine import Materials, hooke_coefficients
 from statorhom.physics.action import Joint
@@ -138,12 +138,7 @@ class CondensedFamily:
 
     def slope(self, vector: np.ndarray, value: float, materials: Materials) -> np.ndarray:
         """d ln f of a mode (v,) of λ = `value` by Hooke entries and density of all regions."""
-        both = np.outer(vector, vector).ravel()
-        slopes = np.empty((len(self.regions), 10))
-        slopes[:, :9] = (0.5 / value * (self._stiffness @ both)).reshape(-1, 9)
-        slopes[:, 9] = -0.5 * (self._mass @ both)
-        places = {region: i for i, region in enumerate(self.regions)}
-        return slopes[[places[region] for region in materials]].ravel()
+        return material_slope(vector, value, (self._stiffness, self._mass), self.regions, materials)
 
 
 @dataclass(frozen=True, eq=False)

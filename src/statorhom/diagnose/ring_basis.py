@@ -62,12 +62,7 @@ class RingProblem:
 
     def slope(self, q: np.ndarray, value: float, materials: Materials) -> np.ndarray:
         """What a vector (k,) of a mode of λ = `value` gives to d ln f by Hooke entries and density of all regions."""
-        both, (stiffness, mass) = np.outer(q, q).ravel(), self._flat
-        slopes = np.empty((len(mass), 10))
-        slopes[:, :9] = (0.5 / value * (stiffness @ both)).reshape(-1, 9)
-        slopes[:, 9] = -0.5 * (mass @ both)
-        places = {region: i for i, region in enumerate(self.stiffness)}
-        return slopes[[places[region] for region in materials]].ravel()
+        return material_slope(q, value, self._flat, tuple(self.stiffness), materials)
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,6 +177,31 @@ class RingBasis:
                 added = independent(problem.basis, vectors, sp.csr_array(problem.space.project(energy)))
                 problems.append(grown(problem, added, terms, profile))
         return replace(self, problems=tuple(problems))
+
+
+def material_slope(
+    q: np.ndarray,
+    value: float,
+    parts: tuple[np.ndarray, np.ndarray],
+    regions: Sequence[str],
+    materials: Materials,
+) -> np.ndarray:
+    """d ln f of a mode by the Hooke entries and the density of all regions, one after the other.
+
+    Parameters
+    ----------
+    q : (k,) coordinates of unit mass.
+    value : λ.
+    parts : (9 regions, k²) K per unit Hooke entry and (regions, k²) M per unit density, as rows.
+    regions : of the parts.
+    materials : whose order counts.
+    """
+    both, (stiffness, mass) = np.outer(q, q).ravel(), parts
+    slopes = np.empty((len(mass), 10))
+    slopes[:, :9] = (0.5 / value * (stiffness @ both)).reshape(-1, 9)
+    slopes[:, 9] = -0.5 * (mass @ both)
+    places = {region: i for i, region in enumerate(regions)}
+    return slopes[[places[region] for region in materials]].ravel()
 
 
 def mark_of(materials: Materials) -> bytes:
