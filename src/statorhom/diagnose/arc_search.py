@@ -14,7 +14,7 @@ from functools import partial
 from typing import TypeVar
 
 import numpy as np
-from scipy.stats import norm, qmc
+from scipy.stats import qmc
 
 from statorhom.diagnose.explanations import COARSE, by_degrees, refitted
 from statorhom.diagnose.few_vectors import in_few_vectors
@@ -23,7 +23,7 @@ from statorhom.diagnose.refit import Refit, evaluated
 from statorhom.diagnose.refit_starts import Start
 from statorhom.diagnose.sharper import in_its_own_model
 from statorhom.diagnose.side_by_side import side_by_side
-from statorhom.diagnose.valleys import FAR_BEHIND, SPREAD, apart, different, nearest_first
+from statorhom.diagnose.valleys import FAR_BEHIND, apart, different, nearest_first, over_the_prior
 from statorhom.errors import StatorhomError
 
 TRAINED = ((np.deg2rad(60.0), 1e-4), (np.deg2rad(140.0), 1e-4))  # widths and ratios that the bases know
@@ -62,7 +62,7 @@ def _points(start: Start, winding: Sequence[int], count: int, seed: int) -> list
     found = []
     for row in cube:
         z = start.z.copy()
-        z[list(winding)] = SPREAD * norm.ppf(0.02 + 0.96 * row[: len(winding)])
+        z[list(winding)] = over_the_prior(row[: len(winding)])
         for part, (name, (low, high)) in zip(row[len(winding) :], RANGES.items(), strict=True):
             z[_place(start.hypothesis, name)] = known[name].internal(float(low * (high / low) ** part))
         found.append(np.clip(z, *start.hypothesis.limits()))

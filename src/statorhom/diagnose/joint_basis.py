@@ -111,21 +111,17 @@ class JointBasis:
         """The same in the few vectors that the modes at some materials and arcs span; nearly right between them."""
         top = (2 * np.pi * self.ring.highest_hz) ** 2
         solved = side_by_side(self._weakened_groups, samples, self.ring.problems)
-        columns = zip(self.groups, zip(*solved, strict=True), strict=True)
-        few = [
-            condensed(
-                g, self.ring.problems, [Sample(m, w) for (m, _), w in zip(samples, own, strict=True)], top
-            )
-            for g, own in columns
-        ]
+        few = []
+        for group, weakened in zip(self.groups, zip(*solved, strict=True), strict=True):
+            own = [Sample(materials, w) for (materials, _), w in zip(samples, weakened, strict=True)]
+            few.append(condensed(group, self.ring.problems, own, top))
         return JointBasis(self.ring, self.pieces, self.springs, tuple(few))
 
     def _weakened_groups(self, sample: tuple[Materials, Joint]) -> list[Weakened]:
         materials, joint = sample
         with one_blas_thread():
-            even = self._even(materials, replace(joint, arc=None))
-            still = replace(joint, arc=(0.0, joint.arc[1]) if joint.arc else None)
-            return [group.weakened(even, still) for group in self.groups]
+            even = self._even(materials, joint)
+            return [group.weakened(even, joint) for group in self.groups]
 
     def _named(
         self, weakened: Weakened, keys: Mapping[ModeKey, StatorMode], place: int, materials: Materials

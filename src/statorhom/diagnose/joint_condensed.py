@@ -103,11 +103,6 @@ class CondensedFamily:
         own = list(zip(self._parts, self._images, strict=True))
         return np.stack([sum((v.T @ image[r].reshape(v.shape)).ravel() for v, image in own) for r in rows])
 
-    @cached_property
-    def _springs(self) -> np.ndarray:
-        """(2, v²) contact of unit stiffness all around."""
-        return np.asarray(self.halves.sum(axis=1))
-
     def solved(
         self, even: RingModes, materials: Materials, joint: Joint, change: np.ndarray
     ) -> CondensedModes:
@@ -125,9 +120,8 @@ class CondensedFamily:
         """
         coefficients = np.concatenate([hooke_coefficients(materials[r].hooke) for r in self.regions])
         density = np.array([materials[r].density for r in self.regions])
-        stiffness = np.array([joint.normal, joint.tangential])
-        lost = np.outer(stiffness, change)
-        K = coefficients @ self._stiffness + stiffness @ self._springs + np.tensordot(lost, self.halves)
+        contact = np.outer((joint.normal, joint.tangential), 1.0 + change)
+        K = coefficients @ self._stiffness + np.tensordot(contact, self.halves)
         shape = (self.vectors.shape[1],) * 2
         values, x = small_pairs(K.reshape(shape), (density @ self._mass).reshape(shape))
         starts, first, rows = {}, 0, []
@@ -194,16 +188,11 @@ def _vectors(
         family = sample.weakened.families[number]
         shapes = block_diag(*[family.even.vectors[n] for n in problems]) @ family.coordinates
         # of unit energy, and rigid bodies, which have none, of unit motion
-        found.append(
-            shapes / np.sqrt(np.maximum(family.values, 0.0) + np.where(_rigid(family, top), top, 0.0))
-        )
+        rigid = np.where(family.values <= RIGID * top, top, 0.0)
+        found.append(shapes / np.sqrt(np.maximum(family.values, 0.0) + rigid))
         pairs = [p.matrices(sample.materials) for p in problems.values()]
         energy.append(block_diag(*[K + top * M for K, M in pairs]))
     root = np.linalg.cholesky(np.mean(energy, axis=0))
     left, sizes, _ = np.linalg.svd(root.T @ np.hstack(found), full_matrices=False)
     most = min(MOST, int(np.count_nonzero(sizes > LEAST * sizes[0])))
     return np.asarray(solve_triangular(root.T, left[:, :most]))
-
-
-def _rigid(family: Family, top: float) -> np.ndarray:
-    return family.values <= RIGID * top

@@ -131,7 +131,7 @@ class Arcs:
 
     def parts(self, trainings: Sequence[Joint]) -> Parts:
         """Of all trainings' modes, per problem."""
-        assert self.problems and self.touched.size and self.intact.nnz  # made once, before processes part
+        _ = self.problems, self.touched, self.intact  # made once, before processes part
         own = side_by_side(self._solved, trainings)
         return [np.hstack(parts) for parts in zip(*own, strict=True)]
 

@@ -34,11 +34,16 @@ def trials_around(z: np.ndarray, places: Sequence[int], seed: int) -> list[np.nd
     found = [z]
     if places:
         cube = qmc.LatinHypercube(len(places), seed=seed).random(TRIALS)
-        for row in SPREAD * norm.ppf(0.02 + 0.96 * cube):
+        for row in over_the_prior(cube):
             point = z.copy()
             point[list(places)] = row
             found.append(point)
     return found
+
+
+def over_the_prior(parts: np.ndarray) -> np.ndarray:
+    """Coordinates for parts (0 … 1) of the prior, its ends left out."""
+    return np.asarray(SPREAD * norm.ppf(0.02 + 0.96 * parts))
 
 
 def optima(blank: _H, trials: Sequence[np.ndarray]) -> list[Refit[_H]]:
