@@ -60,8 +60,25 @@ def test_pole_shifts_are_no_part_of_a_frequency_s_noise() -> None:
     hypothesis: Any = SimpleNamespace(features=lambda _, left_out: features if left_out else [])
     found = left_out_errors(hypothesis, np.empty(0))
     group = ("stack-free", key)
-    assert found[group, False] == pytest.approx((0.1, 0.2))
-    assert found[group, True] == pytest.approx((0.05 * np.sqrt(2), 0.002 * np.sqrt(2)))
+    assert found[group, "mode"] == pytest.approx((0.1, 0.2))
+    assert found[group, "shift"] == pytest.approx((0.05 * np.sqrt(2), 0.002 * np.sqrt(2)))
+
+
+def test_a_split_is_no_part_of_its_mode_s_frequency() -> None:
+    # the wave that parts two lines by 0.4 % of λ moves their mean by less than the mesh leaves open
+    key = (3, 0, 0)
+    features = [Feature("frequency", "stack-free", key, 7.001, 7.0, 1e-3)]
+    features += [Feature("split", "stack-free", key, m, 0.0, 4e-4) for m in (4e-3, 0.0)]
+    hypothesis: Any = SimpleNamespace(features=lambda _, left_out: features if left_out else [])
+    found = left_out_errors(hypothesis, np.empty(0))
+    group = ("stack-free", key)
+    assert found[group, "mode"] == pytest.approx((0.1, 0.1))
+    assert found[group, "split"] == pytest.approx((0.1, 0.01 * np.sqrt(2)))
+
+
+def test_a_mode_whose_lines_are_told_apart_is_one_mode_all_the_same() -> None:
+    twice = HeldOut((*TOLD, *TOLD[:2]), (1.0,) * 6, (0.1,) * 6, (0.1,) * 6)
+    assert twice.informative == len(TOLD)
 
 
 def fit_of(*features: Feature) -> Any:

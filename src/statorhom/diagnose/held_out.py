@@ -42,7 +42,9 @@ WEIGHT = {
 WHAT = "each mode of which the two say different things, predicted from fits that did not see it (six folds)"
 DIFFERENT = 0.2  # of the noise: by how much errors differ at least where two models say different things
 Group = tuple[str, ModeKey | None]
-Part = tuple[Group, bool]  # of a group: its pole shifts, or the rest, whose model is far less certain
+# Of a group: the split of its lines, its pole shifts, or the rest, whose model is far less certain.
+Part = tuple[Group, str]
+APART, REST = ("split", "shift"), "mode"
 # percent: how far off a mode counts as that a model has not got, which predicts none of that name any nearer
 LACKING = round(100 * NEAR * LABELLED_GATE * PAIRING_SD, 1)
 Lacking = tuple[set[Group], set[Group]]  # by the declared model, and by the explanation
@@ -57,7 +59,7 @@ class HeldOut:
 
     Parameters
     ----------
-    groups : test and mode; one with pole shifts stands here twice, for these and for the rest.
+    groups : test and mode; one whose lines are split or whose poles are shifted stands here once for each of these.
     before, after : of the declared model and of the explanation.
     noise : what the measurement, the mesh and the modes that were seen leave uncertain; errors weigh by it.
     what : one line for the report.
@@ -75,8 +77,9 @@ class HeldOut:
 
     @property
     def informative(self) -> int:
-        """Number of groups that the declared model misses by more than their noise explains."""
-        return sum(b > ERRORS * n for b, n in zip(self.before, self.noise, strict=True))
+        """Number of modes that the declared model misses by more than their noise explains."""
+        rows = zip(self.groups, self.before, self.noise, strict=True)
+        return len({group for group, before, noise in rows if before > ERRORS * noise})
 
     @property
     def before_rms(self) -> float:
@@ -154,10 +157,12 @@ def _predicted(
     fits = [(r, fold) for r in (base, explanation.refit) for fold in used]
     errors = side_by_side(lambda fit: _errors(*fit), fits)
     rows: dict[Part, tuple[Error, Error]] = {}
+    # a mode that a model has not got counts once, however many of its features are told apart
+    unknown, given_up = ({(group, REST) for group in groups} for groups in lacking)
     for before, after in zip(errors[: len(used)], errors[len(used) :], strict=True):
         rows |= {part: (before[part], after[part]) for part in before if part in after}
-        rows |= {part: (_lacking(e), e) for part, e in after.items() if part[0] in lacking[0]}
-        rows |= {part: (e, _lacking(e)) for part, e in before.items() if part[0] in lacking[1]}
+        rows |= {part: (_lacking(e), e) for part, e in after.items() if part in unknown}
+        rows |= {part: (e, _lacking(e)) for part, e in before.items() if part in given_up}
     apart = [part for part, both in rows.items() if _differ(*both)]
     told = sorted(apart or rows, key=str)
     lone = any(group in lacking[0] | lacking[1] for group, _ in told)
@@ -272,8 +277,11 @@ def left_out_errors(hypothesis: AnyHypothesis, z: np.ndarray) -> dict[Part, tupl
 
 
 def _part(feature: Feature) -> Part:
-    """What errors are summed over: a sensor moves a pole by less than the mesh leaves open of its frequency."""
-    return feature.group, feature.kind == "shift"
+    """What errors are summed over.
+
+    A sensor moves a pole, and a wave parts a mode's lines, by less than the mesh leaves open of its frequency.
+    """
+    return feature.group, feature.kind if feature.kind in APART else REST
 
 
 def _tells(feature: Feature) -> bool:
