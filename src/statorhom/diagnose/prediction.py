@@ -12,6 +12,7 @@ from statorhom.diagnose.broken_response import Response, responses
 from statorhom.diagnose.dimension_response import dimension_shift
 from statorhom.diagnose.followed_modes import Names, named
 from statorhom.diagnose.order_profiles import reference_profiles
+from statorhom.diagnose.rated_modes import rated_modes
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.identify.stage_problem import NamedByMode, seen
@@ -19,16 +20,6 @@ from statorhom.model.affine import Materials, hooke_coefficients
 from statorhom.model.convergence import ModeKey
 from statorhom.model.stator_mode import StatorMode
 from statorhom.physics.action import Action
-from statorhom.physics.rated import at_rate, self_consistent
-
-RATE_HZ = (
-    400.0,
-    1000.0,
-    2500.0,
-    6000.0,
-    15000.0,
-)  # between which a modulus that follows the frequency is interpolated
-AS_DECLARED = 1  # of these: where such a modulus has its declared value
 
 
 @dataclass(frozen=True, eq=False)
@@ -215,23 +206,10 @@ def _base(
                 followed = named([m.mode for m in modes.values()], names)
                 modes = {key: joined[mode.place] for key, mode in followed.items()}
             return {key: _Symmetric(m.mode, m.log_f, m.split, m.slope) for key, m in modes.items()}
-    for action in actions:
-        if action.modulus_at:
-            return _rated(stage, materials, action, names)
-    found = named(stage.solve(materials, _problems(names)).modes, names)
-    return {key: _Symmetric(mode, log(mode.frequency_hz)) for key, mode in found.items()}
-
-
-def _rated(
-    stage: StageModel, materials: Materials, action: Action, names: Names | None
-) -> dict[ModeKey, _Symmetric]:
-    """Modes of a stator whose moduli follow the frequency: f with f = f(moduli at f), interpolated in ln f."""
-    several, problems = [at_rate(materials, action.modulus_at, rate) for rate in RATE_HZ], _problems(names)
-    tables = [named(stage.solve(each, problems).modes, names) for each in several]
-    logs = self_consistent(np.log(RATE_HZ), tables)
-    # the modes' places are those of the moduli as they stand
-    here = tables[AS_DECLARED]
-    return {key: _Symmetric(here[key], log_f) for key, log_f in logs.items() if key in here}
+    laws = next((action.modulus_at for action in actions if action.modulus_at), None)
+    problems = _problems(names)
+    free = rated_modes(stage, materials, laws, problems) if laws else stage.solve(materials, problems).modes
+    return {key: _Symmetric(mode, log(mode.frequency_hz)) for key, mode in named(free, names).items()}
 
 
 def _problems(names: Names | None) -> frozenset[int] | None:

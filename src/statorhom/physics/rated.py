@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from typing import TypeVar
 
 import numpy as np
 
 from statorhom.materials.hooke import Hooke
 from statorhom.model.affine import Material, Materials
-from statorhom.model.convergence import ModeKey
 from statorhom.model.stator_mode import StatorMode
 
+_Name = TypeVar("_Name", bound=Hashable)
 ITERATIONS = 4  # each leaves about a tenth of the error: frequencies follow moduli slowly
 Laws = Mapping[str, Callable[[float], float]]  # region → factor of its stiffness at a frequency (Hz)
 
@@ -24,8 +25,8 @@ def at_rate(materials: Materials, laws: Laws, rate_hz: float) -> Materials:
 
 
 def self_consistent(
-    log_rates: np.ndarray, tables: Sequence[Mapping[ModeKey, StatorMode]]
-) -> dict[ModeKey, float]:
+    log_rates: np.ndarray, tables: Sequence[Mapping[_Name, StatorMode]]
+) -> dict[_Name, float]:
     """ln f of the modes that the tables around it have: those of much softer or stiffer moduli may lie beyond the band.
 
     Parameters
