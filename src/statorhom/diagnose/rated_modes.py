@@ -1,7 +1,7 @@
 """Modes of a stator whose moduli follow the frequency, each followed by its shape from rate to rate.
 
-Over the band such moduli change several times over: modes of one harmonic problem change places, and of one family ranks, many
-times in between. Their shapes do not, from one table of moduli to the next.
+Over the band such moduli change threefold: modes of one harmonic problem change places, and of one family ranks, in
+between. Their shapes do not, from one table of moduli to the next.
 """
 
 from __future__ import annotations
