@@ -9,7 +9,9 @@ import pytest
 
 from statorhom.extraction import extract
 from statorhom.extraction.extraction import ExtractedMode
+from statorhom.extraction.mode_search import FittedWindow, ModeSearch
 from statorhom.extraction.moving_modes import most_move
+from statorhom.extraction.set_up_shifts import SetUps
 from statorhom.recordings.frf_set import FrfSet
 from synthetic_frfs import frf_set, ring_points, ring_shape
 
@@ -107,6 +109,35 @@ def under_a_sensor(relative_split: float, relative_shift: float) -> FrfSet:
 def family(*modes: tuple[int, float, int]) -> list[tuple[int, float, int, float]]:
     """Cosine and sine of every order, angle and number of node planes."""
     return [(r, a, n, half) for r, a, n in modes for half in (0.0, np.pi / (2 * r))]
+
+
+def test_doublets_that_a_first_look_took_for_moving_modes_do_not_move(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    points, loss, split = ring_points(12, 4), 0.005, (0.4, 0.3, 0.5, 0.4)  # of a bandwidth
+    shapes = np.array(
+        [
+            ring_shape(points, r, a + h, n)
+            for r, a, n, h in family((2, 0.2, 0), (2, 0.3, 1), (3, 0.1, 0), (3, 0.25, 1))
+        ]
+    )
+    poles = [
+        (f * (1 + part * loss * half), loss)
+        for f, part in zip((1000.0, 1300.0, 2000.0, 2500.0), split, strict=True)
+        for half in (0, 1)
+    ]
+    look = ModeSearch.first_look
+
+    def taken_for_moving(search: ModeSearch) -> list[FittedWindow]:
+        windows = look(search)
+        search.set_ups = None if search.steady else SetUps.POINTS
+        return windows
+
+    monkeypatch.setattr(ModeSearch, "first_look", taken_for_moving)
+    found = extract(frf_set(np.arange(900.0, 2700.0), points, [5], poles, shapes, noise=1e-3, floor_db=-80.0))
+    assert found.loaded is None
+    assert [mode.frequency_hz for mode in found.modes] == pytest.approx([f for f, _ in poles], rel=1e-4)
+    assert all(mode.shift is None for mode in found.modes)
 
 
 def test_both_modes_of_a_doublet_move_with_a_sensor() -> None:

@@ -9,10 +9,12 @@ import numpy.typing as npt
 
 from statorhom.extraction.extraction import ExtractedMode, Extraction, residual_lines
 from statorhom.extraction.mode_estimates import mode_estimates
-from statorhom.extraction.mode_search import ModeSearch
+from statorhom.extraction.mode_search import FittedWindow, ModeSearch
+from statorhom.extraction.moving_modes import stay
 from statorhom.extraction.noise import expected_sd, noise_sd
 from statorhom.extraction.point_grid import PointGrid, point_grid
-from statorhom.extraction.roving.find_load import find_load, freed
+from statorhom.extraction.roving.find_load import explained, find_load, freed
+from statorhom.extraction.roving.load import RovingLoad
 from statorhom.extraction.roving.loaded import loaded
 from statorhom.extraction.stabilization import LEAST_SHARE, Stabilization, stabilize
 from statorhom.extraction.unresolved import without_unresolved
@@ -52,12 +54,24 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
     decay = float(np.mean([one.window_decay_per_s for one in sets]))
     search, stable = _search(grid, sd)
     load = find_load(search, search.first_look())
-    if load is None:
-        return _extraction(search, noise, stable, decay)
+    freed_one = None if load is None else _freed(grid, noise, load, decay)
+    if freed_one is not None and freed_one[1]:
+        return freed_one[0]
+    if search.set_ups is not None:
+        # what looks from afar like poles that move may be doublets that are barely split
+        still, still_stable = _search(grid, sd, steady=True)
+        windows = still.run()
+        if stay([(one.window, one.fit, one.neighbours) for one in windows]):
+            return _extraction(still, windows, noise, still_stable, decay)
+    return freed_one[0] if freed_one is not None else _extraction(search, search.run(), noise, stable, decay)
+
+
+def _freed(grid: PointGrid, noise: FloatArray, load: RovingLoad, decay: float) -> tuple[Extraction, bool]:
+    """Modes of a recording that is freed of a load, and whether they explain it."""
     grid, noise, missed = freed(grid, noise, load)
-    sd = np.hypot(expected_sd(grid, noise), missed)
-    search, stable = _search(grid, sd, steady=True)
-    return loaded(_extraction(search, noise, stable, decay), load)
+    search, stable = _search(grid, np.hypot(expected_sd(grid, noise), missed), steady=True)
+    windows = search.run()
+    return loaded(_extraction(search, windows, noise, stable, decay), load), explained(windows)
 
 
 def _search(grid: PointGrid, sd: FloatArray, steady: bool = False) -> tuple[ModeSearch, Stabilization]:
@@ -66,9 +80,15 @@ def _search(grid: PointGrid, sd: FloatArray, steady: bool = False) -> tuple[Mode
     return ModeSearch(grid, sd, poles, parts, stabilization.lasting_squared, steady), stabilization
 
 
-def _extraction(search: ModeSearch, noise: FloatArray, stable: Stabilization, decay: float) -> Extraction:
+def _extraction(
+    search: ModeSearch,
+    fitted: Sequence[FittedWindow],
+    noise: FloatArray,
+    stable: Stabilization,
+    decay: float,
+) -> Extraction:
     grid = search.grid
-    windows = [without_unresolved(one) for one in search.run()]
+    windows = [without_unresolved(one) for one in fitted]
     found = [mode for one, _ in windows for mode in mode_estimates(one, grid, stable, decay)]
     found.sort(key=lambda mode: mode.frequency_hz)
     band = (float(grid.omega[0] / (2 * np.pi)), float(grid.omega[-1] / (2 * np.pi)))

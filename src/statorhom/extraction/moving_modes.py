@@ -57,6 +57,21 @@ def moving_set_ups(windows: FittedWindows) -> SetUps | None:
     return best
 
 
+def stay(windows: FittedWindows) -> bool:
+    """Whether modes that stay where they are explain a recording, and nothing of it looks like a move any more.
+
+    No in a few windows: two poles that stay explain one that moves a little as well.
+
+    Parameters
+    ----------
+    windows : after a search for modes that stay.
+    """
+    fitted = [one for one in windows if len(one[1].modes)]
+    if len(fitted) < _JURY or moving_set_ups(fitted) is not None:
+        return False
+    return all(misfit(window, fit) < _EXPLAINED and not _has_images(fit) for window, fit, _ in fitted)
+
+
 def _is_broad(fit: WindowFit) -> bool:
     """Whether a window's resonances are too broad to tell a pole that moves from two that overlap."""
     return bool(np.median(fit.modes.loss_factors) > _BROAD)
