@@ -54,16 +54,18 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
     decay = float(np.mean([one.window_decay_per_s for one in sets]))
     search, stable = _search(grid, sd)
     load = find_load(search, search.first_look())
-    freed_one = None if load is None else _freed(grid, noise, load, decay)
-    if freed_one is not None and freed_one[1]:
-        return freed_one[0]
+    without: Extraction | None = None
+    if load is not None:
+        without, whole = _freed(grid, noise, load, decay)
+        if whole:
+            return without
     if search.set_ups is not None:
         # what looks from afar like poles that move may be doublets that are barely split
         still, still_stable = _search(grid, sd, steady=True)
         windows = still.run()
         if stay([(one.window, one.fit, one.neighbours) for one in windows]):
             return _extraction(still, windows, noise, still_stable, decay)
-    return freed_one[0] if freed_one is not None else _extraction(search, search.run(), noise, stable, decay)
+    return without or _extraction(search, search.run(), noise, stable, decay)
 
 
 def _freed(grid: PointGrid, noise: FloatArray, load: RovingLoad, decay: float) -> tuple[Extraction, bool]:
