@@ -57,7 +57,7 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
     without: Extraction | None = None
     if load is not None:
         without, whole = _freed(grid, noise, load, decay)
-        if whole:
+        if whole and load.evident:
             return without
     if search.set_ups is not None:
         # what looks from afar like poles that move may be doublets that are barely split
