@@ -56,13 +56,13 @@ def test_points_may_differ_by_little_of_what_the_planes_differ() -> None:
     assert found.shift == pytest.approx([-5e-4, 5e-4], abs=5e-5)
 
 
-def mode(frequency_hz: float, order: int, axial: int, size: float) -> Any:
+def mode(frequency_hz: float, order: int, axial: int, size: float, loss: float = LOSS) -> Any:
     own = SimpleNamespace(
         frequency_hz=frequency_hz,
-        loss_factor=LOSS,
+        loss_factor=loss,
         participation=np.array([size]),
         shape=np.ones(4),
-        bandwidth_hz=LOSS * frequency_hz,
+        bandwidth_hz=loss * frequency_hz,
     )
     return SimpleNamespace(mode=own, order=order, axial=axial)
 
@@ -83,6 +83,15 @@ DOUBLETS = tuple(SimpleNamespace(lower=i, upper=i + 1) for i in (0, 2, 5))
 def test_the_weaker_image_of_a_doublet_is_none() -> None:
     measured: Any = SimpleNamespace(modes=MODES, doublets=DOUBLETS)
     assert [d.lower for d in distinct_doublets(measured)] == [0, 5]
+
+
+def test_poles_of_other_damping_are_no_doublet() -> None:
+    halves = (mode(3199.6, 3, 1, 5.0), mode(3199.7, 3, 1, 5.0, 1.9 * LOSS))
+    images = (mode(4400.0, 3, 1, 4.0), mode(4400.2, 3, 1, 4.0, 2.1 * LOSS))
+    measured: Any = SimpleNamespace(
+        modes=halves + images, doublets=[SimpleNamespace(lower=i, upper=i + 1) for i in (0, 2)]
+    )
+    assert [d.lower for d in distinct_doublets(measured)] == [0]
 
 
 def test_of_a_doublet_that_no_point_parts_one_mode_is_kept() -> None:

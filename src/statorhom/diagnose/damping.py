@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import exp, log
-from statistics import fmean
 
 from statorhom.diagnose.feature import Feature
+from statorhom.diagnose.line_weights import line_weights
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import (
     PredictedMode,
@@ -102,9 +102,10 @@ def free_losses(
 
 
 def mean_loss(measured: Sequence[MeasuredMode], keys: Sequence[ModeKey | None], key: ModeKey) -> float | None:
-    """Geometric mean of the loss factors of a mode's lines; None where none was measured."""
-    own = [m.loss_factor for m, k in zip(measured, keys, strict=True) if k == key and m.loss_factor]
-    return exp(fmean(map(log, own))) if own else None
+    """Geometric mean of the loss factors of a mode's lines by what these say of it; None where none was measured."""
+    own = [m for m, k in zip(measured, keys, strict=True) if k == key and m.loss_factor]
+    logs = [log(m.loss_factor) for m in own if m.loss_factor]
+    return exp(float(line_weights(own) @ logs)) if own else None
 
 
 def supported_losses(

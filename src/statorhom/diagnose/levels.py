@@ -14,6 +14,7 @@ import numpy as np
 from statorhom.diagnose.damping import mean_loss
 from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.features import measured_sd
+from statorhom.diagnose.line_weights import line_weights
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.diagnose.stage_model import StageModel
@@ -101,8 +102,8 @@ def level_features(
             [m for m, k in zip(row, own, strict=True) if k == key]
             for row, own in zip(rows, keys, strict=True)
         )
-        mean = [float(np.mean(np.log([m.frequency_hz for m in own]))) for own in both]
-        noise = [float(np.hypot.reduce([measured_sd(m) for m in own])) / len(own) for own in both]
+        mean = [float(line_weights(own) @ np.log([m.frequency_hz for m in own])) for own in both]
+        noise = [float(np.linalg.norm(line_weights(own) * [measured_sd(m) for m in own])) for own in both]
         change = mean[1] - mean[0]
         sd = float(np.sqrt(noise[0] ** 2 + noise[1] ** 2 + FREQUENCY_OWN**2 + (FREQUENCY_PART * change) ** 2))
         known = all(key in m for m in modes)

@@ -17,6 +17,7 @@ from statorhom.modes.doublets import DoubletPair
 CLOSE = 0.012  # of the frequency: poles nearer than this may be images of one mode
 APART = 1.0  # half-power bandwidths by which a mode must stand off all others for its own pole to be told
 NARROW = 0.1  # half-power bandwidths between a doublet's modes, below which any point sees one mode, its antinode there
+ALIKE = 2.0  # times: the most by which the loss factors of the halves of a doublet differ
 LEAST_POINTS = 4  # per plane
 LEAST_SD = 5e-6
 # the points of a plane may differ by so many standard deviations, or by that part of what the planes differ
@@ -126,7 +127,10 @@ def _is_narrow(modes: Sequence[NamedMode], doublet: DoubletPair) -> bool:
 
 
 def distinct_doublets(measured: MeasuredModes) -> tuple[DoubletPair, ...]:
-    """Doublets without weaker images: a sensor that moves a doublet at some planes leaves it twice."""
+    """Doublets without weaker images: a sensor that moves a doublet at some planes leaves it twice.
+
+    Nor is a pole of another damping a mode's other half: the peak of a mode that is not linear leaves some beside it.
+    """
     modes, size = measured.modes, _sizes(measured.modes)
 
     def is_image(one: DoubletPair, other: DoubletPair) -> bool:
@@ -137,7 +141,13 @@ def distinct_doublets(measured: MeasuredModes) -> tuple[DoubletPair, ...]:
             and _close(mine, its)
         )
 
-    return tuple(d for d in measured.doublets if not any(is_image(d, e) for e in measured.doublets))
+    alike = [d for d in measured.doublets if _alike_damped(modes[d.lower], modes[d.upper])]
+    return tuple(d for d in alike if not any(is_image(d, e) for e in alike))
+
+
+def _alike_damped(one: NamedMode, other: NamedMode) -> bool:
+    losses = (one.mode.loss_factor, other.mode.loss_factor)
+    return max(losses) < ALIKE * min(losses)
 
 
 def strongest(modes: Sequence[NamedMode], paired: set[int]) -> list[int]:
