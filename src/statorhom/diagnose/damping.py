@@ -103,9 +103,11 @@ def free_losses(
 
 def mean_loss(measured: Sequence[MeasuredMode], keys: Sequence[ModeKey | None], key: ModeKey) -> float | None:
     """Geometric mean of the loss factors of a mode's lines by what these say of it; None where none was measured."""
-    own = [m for m, k in zip(measured, keys, strict=True) if k == key and m.loss_factor]
-    logs = [log(m.loss_factor) for m in own if m.loss_factor]
-    return exp(float(line_weights(own) @ logs)) if own else None
+    own = [(m, log(m.loss_factor)) for m, k in zip(measured, keys, strict=True) if k == key and m.loss_factor]
+    if not own:
+        return None
+    lines, logs = zip(*own, strict=True)
+    return exp(float(line_weights(lines) @ logs))
 
 
 def supported_losses(

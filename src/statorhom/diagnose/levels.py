@@ -102,8 +102,7 @@ def level_features(
             [m for m, k in zip(row, own, strict=True) if k == key]
             for row, own in zip(rows, keys, strict=True)
         )
-        mean = [float(line_weights(own) @ np.log([m.frequency_hz for m in own])) for own in both]
-        noise = [float(np.linalg.norm(line_weights(own) * [measured_sd(m) for m in own])) for own in both]
+        mean, noise = zip(*(_mean_of(own) for own in both), strict=True)
         change = mean[1] - mean[0]
         sd = float(np.sqrt(noise[0] ** 2 + noise[1] ** 2 + FREQUENCY_OWN**2 + (FREQUENCY_PART * change) ** 2))
         known = all(key in m for m in modes)
@@ -119,6 +118,13 @@ def level_features(
         told = float(np.log(losses[1][key] / losses[0][key])) if known else 0.0
         found.append(Feature("level_loss", test.name, key, change, told, sd, lost=not known))
     return found
+
+
+def _mean_of(rows: Sequence[MeasuredMode]) -> tuple[float, float]:
+    """Mean ln f of a mode's lines, by what each says of it, and its standard deviation."""
+    weights = line_weights(rows)
+    mean = weights @ np.log([row.frequency_hz for row in rows])
+    return float(mean), float(np.linalg.norm(weights * [measured_sd(row) for row in rows]))
 
 
 def common_keys(

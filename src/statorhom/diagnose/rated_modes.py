@@ -83,7 +83,7 @@ def continued(table: Table, here: RingModes, there: RingModes, materials: Materi
     for number in {mode.problem for mode in table.values()}:
         places = [place for place in table if place[0] == number]
         modes = [mode for mode in there.modes if mode.problem == number]
-        mass = here.problems[number].matrices(materials)[1]
+        mass = here.problems[number].mass_matrix(materials)
         own = here.vectors[number][:, [table[place].column for place in places]]
         alike = np.square(own.T @ mass @ there.vectors[number][:, [mode.column for mode in modes]])
         rows, columns = linear_sum_assignment(alike, maximize=True)

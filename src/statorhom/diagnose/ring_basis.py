@@ -49,10 +49,13 @@ class RingProblem:
     def matrices(self, materials: Materials) -> tuple[np.ndarray, np.ndarray]:
         """K and M (k, k)."""
         coefficients = np.concatenate([hooke_coefficients(materials[r].hooke) for r in self.stiffness])
+        mass = self.mass_matrix(materials)
+        return (coefficients @ self._flat[0]).reshape(mass.shape), mass
+
+    def mass_matrix(self, materials: Materials) -> np.ndarray:
+        """M (k, k)."""
         density = np.array([materials[r].density for r in self.stiffness])
-        shape = (self.basis.shape[1],) * 2
-        stiffness, mass = self._flat
-        return (coefficients @ stiffness).reshape(shape), (density @ mass).reshape(shape)
+        return np.asarray((density @ self._flat[1]).reshape((self.basis.shape[1],) * 2))
 
     @cached_property
     def _flat(self) -> tuple[np.ndarray, np.ndarray]:

@@ -22,6 +22,9 @@ from statorhom.recordings.frf_set import FrfSet
 
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
+Start = tuple[
+    ComplexArray, ComplexArray, Stabilization
+]  # stable poles and participations, and what tells them
 
 _BROAD = 0.1  # loss factor from which on a mode has no peak of its own among others; then …
 _KNOWN = 5e-4  # … its frequency's standard deviation must be less than this part of it
@@ -52,7 +55,8 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
     noise = noise_sd(grid)
     sd = expected_sd(grid, noise)
     decay = float(np.mean([one.window_decay_per_s for one in sets]))
-    search, stable = _search(grid, sd)
+    start = stabilize(grid, sd)
+    search, stable = _search(grid, sd, start), start[2]
     load = find_load(search, search.first_look())
     without: Extraction | None = None
     if load is not None:
@@ -61,25 +65,27 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
             return without
     if search.set_ups is not None:
         # what looks from afar like poles that move may be doublets that are barely split
-        still, still_stable = _search(grid, sd, steady=True)
+        still = _search(grid, sd, start, steady=True)
         windows = still.run()
         if stay([(one.window, one.fit, one.neighbours) for one in windows]):
-            return _extraction(still, windows, noise, still_stable, decay)
+            return _extraction(still, windows, noise, stable, decay)
     return without or _extraction(search, search.run(), noise, stable, decay)
 
 
 def _freed(grid: PointGrid, noise: FloatArray, load: RovingLoad, decay: float) -> tuple[Extraction, bool]:
     """Modes of a recording that is freed of a load, and whether they explain it."""
     grid, noise, missed = freed(grid, noise, load)
-    search, stable = _search(grid, np.hypot(expected_sd(grid, noise), missed), steady=True)
+    sd = np.hypot(expected_sd(grid, noise), missed)
+    start = stabilize(grid, sd)
+    search = _search(grid, sd, start, steady=True)
     windows = search.run()
-    return loaded(_extraction(search, windows, noise, stable, decay), load), explained(windows)
+    return loaded(_extraction(search, windows, noise, start[2], decay), load), explained(windows)
 
 
-def _search(grid: PointGrid, sd: FloatArray, steady: bool = False) -> tuple[ModeSearch, Stabilization]:
+def _search(grid: PointGrid, sd: FloatArray, start: Start, steady: bool = False) -> ModeSearch:
     """A search that begins at the stable poles; `steady`: of a recording whose poles are known not to move."""
-    poles, parts, stabilization = stabilize(grid, sd)
-    return ModeSearch(grid, sd, poles, parts, stabilization.lasting_squared, steady), stabilization
+    poles, parts, stabilization = start
+    return ModeSearch(grid, sd, poles, parts, stabilization.lasting_squared, steady)
 
 
 def _extraction(
