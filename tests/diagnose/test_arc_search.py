@@ -54,7 +54,6 @@ class Search:
         monkeypatch.setattr(module, "in_few_vectors", lambda *_: Hypothesis("few"))
         monkeypatch.setattr(module, "by_degrees", self.by_degrees)
         monkeypatch.setattr(module, "refitted", self.refitted)
-        monkeypatch.setattr(module, "evaluated", lambda h, z: SimpleNamespace(hypothesis=h, z=z))
         monkeypatch.setattr(module, "in_its_own_model", lambda *_, **__: Hypothesis("own"))
         monkeypatch.setattr(valleys_of, "refit_objective", self.objective)
 
@@ -117,7 +116,7 @@ def test_a_winding_without_a_model_of_its_own_is_judged_last(monkeypatch: pytest
     def impossible(*_: Any, **__: Any) -> Any:
         raise SolverError("no such body")
 
-    monkeypatch.setattr(module, "evaluated", impossible)
+    monkeypatch.setattr(module, "in_its_own_model", impossible)
     objective, z = module._judged(Hypothesis(), np.zeros(7))  # type: ignore[arg-type]
     assert objective == np.inf and not z.any()
 

@@ -60,11 +60,11 @@ class Search:
     def explained(self, r: Any, _: Any) -> Any:
         return self.explanation(-r.objective, r, adequacy=0.5 if r.objective < 30.0 else 0.0)
 
-    def model(self, r: Any, *, mesh_known: bool = False, arcs: Any = ()) -> Any:
+    def model(self, hypothesis: Any, z: np.ndarray, *, mesh_known: bool = False, arcs: Any = ()) -> Any:
         if arcs:
             assert arcs == TRAINED and mesh_known
-            self.trained.append(r.z)
-        return r.hypothesis
+            self.trained.append(z)
+        return hypothesis
 
     def search(self, start: Start, winding: Sequence[int]) -> np.ndarray:
         self.begun.append((start.z, winding))

@@ -61,17 +61,16 @@ def test_what_breaks_the_symmetry_is_solved_on_the_other_side(monkeypatch: pytes
         refit.hypothesis = replace(refit.hypothesis, changes=lambda *_: ())
         return refit
 
-    def own_model(there: Any, *, mesh_known: bool) -> Any:
+    def own_model(hypothesis: Any, z: np.ndarray, *, mesh_known: bool) -> Any:
         # where the mesh is wrong by about as much, a look at the other side does not solve finer meshes
         assert mesh_known
-        references.append(there.z[1])
-        return there.hypothesis
+        references.append(z[1])
+        return hypothesis
 
     def refitted(_hypothesis: Any, z: np.ndarray, worth: float) -> Any:
         assert worth in (100.0, 20.0)
         return broken(z, 20.0 if z[1] > 0 else 90.0 + worth)
 
-    monkeypatch.setattr(sharper, "evaluated", lambda _, z: broken(z, 300.0))
     monkeypatch.setattr(sharper, "in_its_own_model", own_model)
     monkeypatch.setattr(sharper, "refitted", refitted)
     assert sharper._on_other_sides(broken(np.array([0.2, -0.7, 0.1]), 100.0)).objective == 20.0

@@ -19,7 +19,7 @@ from scipy.stats import qmc
 from statorhom.diagnose.explanations import COARSE, by_degrees, refitted
 from statorhom.diagnose.few_vectors import in_few_vectors
 from statorhom.diagnose.hypothesis import Hypothesis
-from statorhom.diagnose.refit import Refit, evaluated
+from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.refit_starts import Start
 from statorhom.diagnose.sharper import in_its_own_model
 from statorhom.diagnose.side_by_side import side_by_side
@@ -115,7 +115,7 @@ def _judged(start: Hypothesis, z: np.ndarray) -> tuple[float, np.ndarray]:
     The model is not handed on: it is larger than what it takes to make it again once.
     """
     try:
-        own = in_its_own_model(evaluated(start, z), mesh_known=True, around=(1.0,))
+        own = in_its_own_model(start, z, mesh_known=True, around=(1.0,))
     except (StatorhomError, KeyError):
         return np.inf, z
     found = by_degrees(own, z)

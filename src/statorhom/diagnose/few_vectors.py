@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 
 from statorhom.diagnose.hypothesis import Hypothesis
-from statorhom.diagnose.prediction import acted_materials
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.errors import StatorhomError
 from statorhom.model.affine import Materials
@@ -36,7 +35,6 @@ def _samples(hypothesis: Hypothesis, stage: StageModel, z: np.ndarray) -> Iterat
     joints = [a.joint for a in actions if a.joint is not None and a.touches(stage.name, None)]
     if joints:
         try:
-            values = hypothesis.study.constants.values(z[: hypothesis.constants])
-            yield acted_materials(hypothesis.study, stage, values, actions), joints[0]
+            yield hypothesis.materials(stage, z), joints[0]
         except StatorhomError:
             return

@@ -78,7 +78,6 @@ def _in_narrow_valleys(rough: Refit, base: Refit) -> Refit | None:
     """What wide valleys found, held where it is: a refit of the effect alone would run away from there."""
     own = replace(base.hypothesis, candidates=rough.hypothesis.candidates, study=rough.hypothesis.study)
     try:
-        there = evaluated(replace(own, held=None, missed=0.0), rough.z)
-        return evaluated(in_its_own_model(there), rough.z)
+        return evaluated(in_its_own_model(own, rough.z), rough.z)
     except (StatorhomError, KeyError):
         return None

@@ -46,6 +46,7 @@ from statorhom.diagnose.supported import (
     without_attachments,
 )
 from statorhom.diagnose.supported_partners import Partners, partners, supported_features
+from statorhom.model.affine import Materials
 from statorhom.model.convergence import ModeKey
 from statorhom.physics.action import Action
 from statorhom.study.modal_table import MeasuredMode
@@ -84,6 +85,17 @@ class Hypothesis(AnyHypothesis):
         kind = "" if self.trained else " untrained"
         own = ((c.label + kind, tuple(v.values())) for c, v in zip(self.candidates, values, strict=True))
         return (*own, *((f"declared {i}", ()) for i in range(len(self.study.effects))))
+
+    def materials(self, stage: StageModel, z: FloatArray) -> Materials:
+        """Of a step, as constants and effects make them.
+
+        Raises
+        ------
+        MassError, MaterialError
+            If no material has these constants.
+        """
+        values = self.study.constants.values(z[: self.constants])
+        return acted_materials(self.study, stage, values, self.actions(z))
 
     def paired(self, z: FloatArray) -> Hypothesis:
         """With the pairing held as it is at z: of near partners, or of far ones where these leave less.

@@ -60,11 +60,11 @@ def _sought(base: Refit, candidate: Candidate) -> Refit | None:
 
 def _in_own_models(found: Refit) -> Refit | None:
     """Refitted in a model of its own, and in further ones while that explains more and much is left to explain."""
-    best = by_degrees(in_its_own_model(found), found.z)
+    best = by_degrees(in_its_own_model(found.hypothesis, found.z), found.z)
     for _ in range(ROUNDS - 1):
         if best is None or explained(best, {}).adequacy > ADEQUATE:
             break
-        again = by_degrees(in_its_own_model(best), best.z)
+        again = by_degrees(in_its_own_model(best.hypothesis, best.z), best.z)
         if again is None or again.objective >= best.objective:
             break
         best = again
@@ -76,8 +76,8 @@ def _with_typical_winding(base: Refit, candidate: Candidate) -> Refit | None:
     z = base.z.copy()
     z[_winding(base, candidate)] = 0.0
     try:
-        there = evaluated(blank(base.hypothesis, base.hypothesis.candidates), z)
-        return evaluated(in_its_own_model(there, mesh_known=True, arcs=TRAINED), z)
+        declared = blank(base.hypothesis, base.hypothesis.candidates)
+        return evaluated(in_its_own_model(declared, z, mesh_known=True, arcs=TRAINED), z)
     except (StatorhomError, KeyError):
         return None
 

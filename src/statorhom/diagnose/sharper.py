@@ -7,7 +7,7 @@ valley that the right belief does not have.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -24,12 +24,10 @@ from statorhom.diagnose.explanations import (
 )
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.mirrored import at_fitting_height
-from statorhom.diagnose.prediction import acted_materials
-from statorhom.diagnose.refit import Refit, evaluated
-from statorhom.diagnose.stage_model import StageModel, mesh_error, with_reference
+from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.stage_model import mesh_error, with_reference
 from statorhom.diagnose.valleys import APART, FAR_BEHIND
 from statorhom.errors import StatorhomError
-from statorhom.model.affine import Materials
 from statorhom.physics.action import Action
 
 MOST = 3  # explanations that get models of their own before a second effect is sought
@@ -90,7 +88,8 @@ def at_its_own_materials(explanation: Explanation) -> Explanation:
 
 def _has_moved(r: Refit) -> bool:
     """Whether any region's stiffness has left that of its stage's reference."""
-    for stage, materials in _acted(r):
+    for stage in r.hypothesis.study.stages:
+        materials = r.hypothesis.materials(stage, r.z)
         for region, reference in stage.reference.items():
             now, then = (np.diag(m.hooke.matrix) for m in (materials[region], reference))
             if np.abs(np.log(now / then)).max() > MOVED:
@@ -98,17 +97,9 @@ def _has_moved(r: Refit) -> bool:
     return False
 
 
-def _acted(r: Refit) -> Iterator[tuple[StageModel, Materials]]:
-    """Stages with the materials that constants and effects give them."""
-    hypothesis = r.hypothesis
-    values, actions = hypothesis.study.constants.values(r.z[: hypothesis.constants]), hypothesis.actions(r.z)
-    for stage in hypothesis.study.stages:
-        yield stage, acted_materials(hypothesis.study, stage, values, actions)
-
-
 def _sharpened(explanation: Explanation) -> Explanation:
     r = explanation.refit
-    moved = in_its_own_model(r)
+    moved = in_its_own_model(r.hypothesis, r.z)
     again = refitted(moved, r.z)
     if again is None or again.objective > r.objective + WORSE:
         # other mesh factors may have put the constants onto a slope of another valley
@@ -119,7 +110,8 @@ def _sharpened(explanation: Explanation) -> Explanation:
 
 
 def in_its_own_model(
-    r: Refit,
+    hypothesis: Hypothesis,
+    z: np.ndarray,
     *,
     mesh_known: bool = False,
     arcs: tuple[tuple[float, float], ...] = (),
@@ -129,14 +121,19 @@ def in_its_own_model(
 
     Parameters
     ----------
-    r : what, and where.
+    hypothesis, z : what, and where.
     mesh_known : whether the old mesh factors do.
     arcs : widths (rad) and ratios that a contact may be weaker over, beside those of the effects.
     around : times an effect's own arc, at which its contact is solved.
+
+    Raises
+    ------
+    StatorhomError
+        If no stator has these constants.
     """
-    hypothesis, stages = r.hypothesis, []
-    arcs = (*arcs, *_arcs(hypothesis.actions(r.z), around))
-    for stage, materials in _acted(r):
+    stages, arcs = [], (*arcs, *_arcs(hypothesis.actions(z), around))
+    for stage in hypothesis.study.stages:
+        materials = hypothesis.materials(stage, z)
         near = with_reference(stage, materials, arcs)
         if not mesh_known:
             near = near.with_error(mesh_error(stage.setup, near.ring, materials, stage.density))
@@ -227,10 +224,10 @@ def _from_there(best: Refit, start: np.ndarray) -> Refit | None:
     if _keeps_symmetry(best):
         return refitted(blank, start, worth=best.objective)
     try:
-        there = evaluated(blank, start)
+        own = in_its_own_model(blank, start, mesh_known=True)
     except (StatorhomError, KeyError):
         return None
-    return refitted(in_its_own_model(there, mesh_known=True), start, worth=best.objective)
+    return refitted(own, start, worth=best.objective)
 
 
 def _keeps_symmetry(found: Refit) -> bool:

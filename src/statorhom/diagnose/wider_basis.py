@@ -12,7 +12,6 @@ from dataclasses import replace
 import numpy as np
 
 from statorhom.diagnose.hypothesis import Hypothesis
-from statorhom.diagnose.prediction import acted_materials
 from statorhom.diagnose.stage_model import StageModel, with_snapshots
 from statorhom.errors import StatorhomError
 from statorhom.model.affine import Material, Materials
@@ -46,11 +45,10 @@ def _spread(points: Sequence[np.ndarray]) -> list[np.ndarray]:
 
 def _materials(hypothesis: Hypothesis, stage: StageModel, points: Sequence[np.ndarray]) -> list[Materials]:
     """Materials of a stage that differ much from those of its basis."""
-    study, found = hypothesis.study, []
+    found = []
     for z in points:
-        values = study.constants.values(z[: hypothesis.constants])
         try:
-            acted = acted_materials(study, stage, values, hypothesis.actions(z))
+            acted = hypothesis.materials(stage, z)
         except StatorhomError:
             continue
         if any(_is_far(stage.reference[region], acted[region]) for region in acted):
