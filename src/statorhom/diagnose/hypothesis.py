@@ -97,6 +97,16 @@ class Hypothesis(AnyHypothesis):
         values = self.study.constants.values(z[: self.constants])
         return acted_materials(self.study, stage, values, self.actions(z))
 
+    def with_tests(self, tests: Mapping[str, MeasuredTest]) -> Hypothesis:
+        """Of other measurements of the same tests, to be paired anew.
+
+        Parameters
+        ----------
+        tests : by name.
+        """
+        stages = [s.with_tests([tests.get(t.name, t) for t in s.tests]) for s in self.study.stages]
+        return replace(self, study=self.study.with_stages(tuple(stages)), held=None, missed=0.0)
+
     def paired(self, z: FloatArray) -> Hypothesis:
         """With the pairing held as it is at z: of near partners, or of far ones where these leave less.
 

@@ -14,6 +14,7 @@ from statorhom.diagnose.explanations import ADEQUATE, Explanation, nothing
 from statorhom.diagnose.held_out_name import renames_alone
 from statorhom.diagnose.lacking_modes import lacks_modes
 from statorhom.diagnose.lost_contact import with_lost_contact
+from statorhom.diagnose.repeated_null import with_repeated_null
 from statorhom.diagnose.scan import Scan, scan
 from statorhom.diagnose.single_effects import new_names, single_effects
 from statorhom.physics.candidate import Candidate
@@ -92,6 +93,7 @@ def _beside(
     search: bool = True,
 ) -> Leading:
     signatures = scan(base.free, [c for c in candidates if c.parameters], seed)
+    signatures = with_repeated_null(base.free, signatures, seed)
     discrete = [c for c in candidates if not c.parameters]
     begun = Leading(base, signatures, lacks_modes(base.free), ())
     if begun.misfit_is_real and search:

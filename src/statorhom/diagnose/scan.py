@@ -26,6 +26,7 @@ from statorhom.physics.parameter import EffectParameter
 
 FloatArray = npt.NDArray[np.float64]
 Place = tuple[Candidate, FloatArray]  # an effect, and internal coordinates of its parameters
+Row = tuple[str, str, object, int]  # kind, test and mode of a feature, and how many such came before
 ANGLES_PER_ORDER = 5  # places per half wave of the highest split order
 # of the core's length; not its middle, where splits of a symmetric stator have no slope that a refit could follow
 HEIGHTS = (0.15, 0.45, 0.7)
@@ -33,6 +34,7 @@ DRAWS = 4000
 MANY = 24  # of a candidate's further places: worth a process
 COMMON = 0.6  # of the features, from which on signatures of one optimum are those of another
 INVISIBLE = 1e-6  # of a signature's square that the constants leave: none that could be told
+NOTHING = 1e-8  # the same of itself, in squared standard deviations
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,7 +148,7 @@ def left_over(before: Scan, base: Refit, first: Refit, seed: int) -> Scan:
     first : the explanation.
     seed : of the draws that tell the chance of the largest gain if the explanation leaves nothing.
     """
-    own, rows = _rows(base), _rows(first)
+    own, rows = (rows_of(r.hypothesis.features(r.z)) for r in (base, first))
     known = {row: place for place, row in enumerate(own)}
     places = [known.get(row) for row in rows]
     if sum(place is not None for place in places) < COMMON * max(len(own), len(rows)):
@@ -185,15 +187,39 @@ def _meshes(acted: AnyHypothesis, z: FloatArray) -> int:
     return 2 if action.joint is not None else int(bool(action.dimensions))
 
 
-def _rows(r: Refit) -> list[tuple[str, str, object, int]]:
-    """What the features are of; equal ones are counted."""
+def rows_of(features: Sequence[Feature]) -> list[Row]:
+    """What features are of; equal ones are counted."""
     seen: Counter[tuple[str, str, object]] = Counter()
-    rows: list[tuple[str, str, object, int]] = []
-    for f in r.hypothesis.features(r.z):
+    rows: list[Row] = []
+    for f in features:
         what = f.kind, f.test, f.key
         rows.append((*what, seen[what]))
         seen[what] += 1
     return rows
+
+
+def freed(wholes: FloatArray, q: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Changes of the features without what a refit's coordinates can take up of them.
+
+    Parameters
+    ----------
+    wholes : (changes, features).
+    q : (features + coordinates, coordinates) orthonormal, what the coordinates do.
+
+    Returns
+    -------
+    units : (changes, features + coordinates) of unit length; 0 of what the coordinates take up all of.
+    strengths : (changes,) lengths before; 0 of these.
+    """
+    changes = np.hstack([wholes, np.zeros((len(wholes), len(q) - wholes.shape[1]))])
+    total = np.sum(changes**2, axis=1)
+    changes = changes - (changes @ q) @ q.T
+    left = np.sum(changes**2, axis=1)
+    strengths = np.sqrt(np.where(left > np.maximum(INVISIBLE * total, NOTHING), left, 0.0))
+    seen = strengths > 0.0
+    units = np.zeros_like(changes)
+    units[seen] = changes[seen] / strengths[seen, None]
+    return units, strengths
 
 
 class _Constants:
@@ -206,16 +232,12 @@ class _Constants:
 
     def signature(self, candidate: Candidate, start: FloatArray, whole: FloatArray) -> Signature | None:
         """Of a change of the features' residuals; None where the constants take up all of it."""
-        change = np.r_[whole, np.zeros(len(self.residuals) - len(whole))]
-        total = float(change @ change)
-        change = change - self.q @ (self.q.T @ change)
-        left = float(change @ change)
-        if left <= max(INVISIBLE * total, 1e-8):
+        (unit,), (strength,) = freed(whole[None], self.q)
+        if strength == 0.0:
             return None
-        unit = change / np.sqrt(left)
         # the effect takes away what its signature shares with the misfit, with the opposite sign
         gain = max(0.0, -float(unit @ self.residuals)) ** 2
-        return Signature(candidate, start, unit, float(np.sqrt(left)), gain, whole)
+        return Signature(candidate, start, unit, float(strength), gain, whole)
 
 
 def _p_value(signatures: Sequence[Signature], q: FloatArray, seed: int) -> float:

@@ -187,6 +187,15 @@ class StageModel:
         """The same stage with other mesh factors."""
         return replace(self, error=error, responses=Kept(RESPONSES), sensor_responses={}, _corrected={})
 
+    def with_tests(self, tests: Sequence[MeasuredTest]) -> StageModel:
+        """The same stage with other measurements."""
+        return self._of_reference(replace(self, tests=tuple(tests)))
+
+    def _of_reference(self, other: StageModel) -> StageModel:
+        """Another one at the same reference, which knows what belongs to that alone."""
+        other.__dict__.update({name: self.__dict__[name] for name in OF_REFERENCE if name in self.__dict__})
+        return other
+
     def _on_this_mesh(self, trainings: Sequence[Training]) -> TrainedBasis:
         mark = tuple(sorted(t.key for t in trainings))
         if mark not in self._trained:
@@ -265,10 +274,7 @@ def mesh_error(setup: StageSetup, ring: RingBasis, materials: Materials, density
 
 def with_snapshots(stage: StageModel, materials: Sequence[Materials]) -> StageModel:
     """The stage at its reference, predicted well near further materials too."""
-    wider = replace(stage, ring=stage.ring.extended(materials), _last={}, _slopes={})
-    # what belongs to the reference alone stays
-    wider.__dict__.update({name: stage.__dict__[name] for name in OF_REFERENCE if name in stage.__dict__})
-    return wider
+    return stage._of_reference(replace(stage, ring=stage.ring.extended(materials), _last={}, _slopes={}))
 
 
 def with_reference(
