@@ -36,6 +36,7 @@ def led(monkeypatch: pytest.MonkeyPatch, p_value: float, *steps: tuple[Any, list
     monkeypatch.setattr(
         leading, "scan", lambda fit, *_: SimpleNamespace(p_value=1e-4 if fit is bases[0].free else p_value)
     )
+    monkeypatch.setattr(leading, "with_repeated_null", lambda _, found, __: found)
     monkeypatch.setattr(leading, "single_effects", lambda fit, *_: next(e for b, e in steps if b.free is fit))
     monkeypatch.setattr(leading, "new_names", lambda *_: [])
     monkeypatch.setattr(leading, "renames_alone", lambda _: False)
