@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose.feature import LOST, LOST_UNNAMED, Feature
-from statorhom.diagnose.held_out import OF_TABLES, HeldOut, lacked, left_out_errors
+from statorhom.diagnose.held_out import OF_TABLES, SHIFT, HeldOut, lacked, left_out_errors
 
 TOLD = (
     ("stack-free", (2, 0, 0)),
@@ -79,6 +79,34 @@ def test_a_split_is_no_part_of_its_mode_s_frequency() -> None:
 def test_a_mode_whose_lines_are_told_apart_is_one_mode_all_the_same() -> None:
     twice = HeldOut((*TOLD, *TOLD[:2]), (1.0,) * 6, (0.1,) * 6, (0.1,) * 6)
     assert twice.informative == len(TOLD)
+
+
+def sensor(frequencies: tuple[float, ...]) -> HeldOut:
+    """Shifts that a sensor predicts, and frequencies that were missed by twice their noise and are now by so much."""
+    count = len(TOLD)
+    return HeldOut(
+        TOLD * 2,
+        (0.3,) * count + (0.2,) * count,
+        (0.1,) * count + frequencies,
+        (0.1,) * 2 * count,
+        kinds=(SHIFT,) * count + ("mode",) * count,
+    )
+
+
+def test_shifts_tell_of_a_sensor_where_frequencies_are_blurred_by_the_mesh() -> None:
+    blurred = sensor((0.3, 0.35, 0.25, 0.3))
+    assert not blurred.falls and not blurred.worsens
+    assert blurred.of_shifts.falls
+    assert blurred.of_shifts.groups == TOLD
+    assert blurred.of_shifts.before_rms == pytest.approx(0.3)
+
+
+def test_frequencies_that_get_much_worse_contradict_a_sensor_whatever_its_shifts() -> None:
+    assert sensor((0.6, 0.9, 0.5, 0.7)).worsens
+
+
+def test_what_has_no_shifts_has_none_that_fall() -> None:
+    assert not errors(0.1).of_shifts.falls
 
 
 def fit_of(*features: Feature) -> Any:
