@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -156,6 +157,22 @@ def test_both_modes_of_a_doublet_move_with_a_sensor() -> None:
     )
     error = np.abs(found.regenerate(LINES) - frfs.receptance) / np.abs(frfs.receptance).max()
     assert error.max() < 1e-2
+
+
+def test_a_search_for_modes_that_stay_is_given_up_where_its_first_sweep_explains_little(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    sweep, swept = ModeSearch._sweep, []
+
+    def counted(search: ModeSearch) -> None:
+        swept.append(search.steady)
+        sweep(search)
+
+    monkeypatch.setattr(ModeSearch, "_sweep", counted)
+    monkeypatch.setattr(import_module("statorhom.extraction.extract"), "find_load", lambda *_: None)
+    found = extract(under_a_sensor(5e-4, 4e-3))
+    assert swept.count(True) == 1 < swept.count(False)
+    assert sum(mode.shift is not None for mode in found.modes) == 4
 
 
 def strength(mode: ExtractedMode) -> float:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from statorhom.extraction.extraction import ExtractedMode, Extraction, residual_lines
 from statorhom.extraction.mode_estimates import mode_estimates
 from statorhom.extraction.mode_search import FittedWindow, ModeSearch
-from statorhom.extraction.moving_modes import stay
+from statorhom.extraction.moving_modes import few_stay, stay
 from statorhom.extraction.noise import expected_sd, noise_sd
 from statorhom.extraction.point_grid import PointGrid, point_grid
 from statorhom.extraction.roving.find_load import explained, find_load, freed
@@ -66,8 +66,8 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
     if search.set_ups is not None:
         # what looks from afar like poles that move may be doublets that are barely split
         still = _search(grid, sd, start, steady=True)
-        windows = still.run()
-        if stay([(one.window, one.fit, one.neighbours) for one in windows]):
+        windows = still.run(lambda found: few_stay([one.fitted for one in found]))
+        if stay([one.fitted for one in windows]):
             return _extraction(still, windows, noise, stable, decay)
     return without or _extraction(search, search.run(), noise, stable, decay)
 

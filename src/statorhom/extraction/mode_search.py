@@ -7,6 +7,7 @@ noise counted as noise.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -43,6 +44,11 @@ class FittedWindow:
     neighbours: Modes
     own: tuple[int, ...]
 
+    @property
+    def fitted(self) -> tuple[Window, WindowFit, Modes]:
+        """Data, fit and neighbours: what tells whether poles move."""
+        return self.window, self.fit, self.neighbours
+
 
 class ModeSearch:
     """State of a search over one grid: data, noise and the modes so far."""
@@ -75,21 +81,30 @@ class ModeSearch:
 
     def first_look(self) -> list[FittedWindow]:
         """The windows of the first modes, and whether poles move."""
-        self.first = [self._fitted(own) for own in clusters(self.modes.poles)]
+        self.first = self._windows()
         if not self.steady:
-            self.set_ups = moving_set_ups([(one.window, one.fit, one.neighbours) for one in self.first])
+            self.set_ups = moving_set_ups([one.fitted for one in self.first])
         return self.first
 
-    def run(self) -> list[FittedWindow]:
-        """Sweep until the modes settle; the windows of the clusters with their last fits."""
+    def run(self, hopeless: Callable[[Sequence[FittedWindow]], bool] | None = None) -> list[FittedWindow]:
+        """Sweep until the modes settle; the windows of the clusters with their last fits.
+
+        Parameters
+        ----------
+        hopeless : whether what the first sweep has found is not worth another one.
+        """
         if self.first is None:
             self.first_look()
-        for _ in range(_SWEEPS):
+        for number in range(_SWEEPS):
             before = self.modes
             self._sweep()
-            if _settled(before, self.modes):
+            given_up = number == 0 and hopeless is not None and hopeless(self._windows())
+            if given_up or _settled(before, self.modes):
                 break
-        return [self._checked(self._fitted(own)) for own in clusters(self.modes.poles)]
+        return [self._checked(one) for one in self._windows()]
+
+    def _windows(self) -> list[FittedWindow]:
+        return [self._fitted(own) for own in clusters(self.modes.poles)]
 
     def window(self, lines: slice) -> Window:
         """Data of some lines, in bins."""

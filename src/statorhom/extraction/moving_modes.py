@@ -69,7 +69,23 @@ def stay(windows: FittedWindows) -> bool:
     fitted = [one for one in windows if len(one[1].modes)]
     if len(fitted) < _JURY or moving_set_ups(fitted) is not None:
         return False
-    return all(misfit(window, fit) < _EXPLAINED and not _has_images(fit) for window, fit, _ in fitted)
+    return all(_explained(window, fit) for window, fit, _ in fitted)
+
+
+def few_stay(windows: FittedWindows) -> bool:
+    """Whether modes that stay explain so few windows that the search for them had better end.
+
+    Parameters
+    ----------
+    windows : after its first sweep: what that leaves, further ones share out among more modes.
+    """
+    explained = [_explained(window, fit) for window, fit, _ in windows if len(fit.modes)]
+    return 2 * sum(explained) < len(explained)
+
+
+def _explained(window: Window, fit: WindowFit) -> bool:
+    """Whether modes that stay explain a window, none of which is another one's image."""
+    return misfit(window, fit) < _EXPLAINED and not _has_images(fit)
 
 
 def _is_broad(fit: WindowFit) -> bool:
