@@ -162,8 +162,9 @@ def held_out(base: Refit, explanation: Explanation) -> HeldOut:
     found = _predicted(base, explanation, [frozenset(groups[k::FOLDS]) for k in range(FOLDS)], lacking)
     if found.falls or found.worsens:
         return found
-    if found.of_shifts.falls:
-        return found.of_shifts
+    shifts = found.of_shifts
+    if shifts.falls:
+        return shifts
     if _moves_densities(base, explanation):
         weighed = _predicted(base, explanation, [frozenset([WEIGHED])])
         if weighed.falls:

@@ -25,7 +25,7 @@ from statorhom.errors import StatorhomError
 
 FloatArray = npt.NDArray[np.float64]
 DRAWS = 200  # one of them may gain more than what was measured
-ROUNDS = 2  # of pairing anew
+AGAIN = 1  # times that a draw is paired anew at what its refit comes to
 MANY = 24  # draws that are worth a process
 
 
@@ -136,9 +136,8 @@ def _largest(null: _Null, number: int) -> float:
     # what is measured beside lines, and what is known beforehand
     noise, prior = rng.standard_normal(len(null.places)), null.prior * rng.standard_normal(len(null.prior))
     paired = own.paired(base.z)
-    for _ in range(ROUNDS):
-        projected, residuals = _as_drawn(null, paired, noise)
-        residuals = np.r_[residuals, prior]
+    projected, residuals = _as_drawn(null, paired, noise, prior)
+    for _ in range(AGAIN):
         try:
             there = np.clip(base.z + projected.step(residuals), *base.hypothesis.limits())
             again = own.paired(there)
@@ -147,6 +146,7 @@ def _largest(null: _Null, number: int) -> float:
         if again.held == paired.held:
             break
         paired = again
+        projected, residuals = _as_drawn(null, paired, noise, prior)
     return projected.largest(residuals)
 
 
@@ -158,8 +158,10 @@ def _repeated(hypothesis: Hypothesis, z: FloatArray, noise: Callable[[], float])
     return hypothesis.with_tests({t.name: simulated(t, held[t.name], features, noise) for t in tests})
 
 
-def _as_drawn(null: _Null, paired: Hypothesis, noise: FloatArray) -> tuple[_Projected, FloatArray]:
-    """Features of a draw and their residuals, at the constants that it was made with."""
+def _as_drawn(
+    null: _Null, paired: Hypothesis, noise: FloatArray, prior: FloatArray
+) -> tuple[_Projected, FloatArray]:
+    """Features of a draw, and their residuals with the prior's below, at the constants that it was made with."""
     features = paired.features(null.base.z)
     rows = rows_of(features)
     seen = [i for i, feature in enumerate(features) if not feature.lost]
@@ -168,4 +170,4 @@ def _as_drawn(null: _Null, paired: Hypothesis, noise: FloatArray) -> tuple[_Proj
         features[i].residual if is_line(features[i]) else 0.0 if place is None else float(noise[place])
         for i, place in zip(seen, places, strict=True)
     ]
-    return null.projected(paired, places, seen), np.array(residuals)
+    return null.projected(paired, places, seen), np.r_[residuals, prior]
