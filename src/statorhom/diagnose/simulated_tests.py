@@ -50,17 +50,17 @@ def simulated(
     noise : gives the next deviation, in standard deviations of a feature.
     """
     drawn = _drawn([f for f in features if f.test == test.name], noise)
-    paired = {m.label for m, partner in zip(test.modes, partners, strict=True) if partner is not None}
     logs = {m.label: float(np.log(m.frequency_hz)) for m in test.modes}
     modes = []
-    for mode in test.modes:
+    for mode, partner in zip(test.modes, partners, strict=True):
+        if partner is None:
+            continue
         one = drawn.get(mode.label)
         if one is not None:
             mean = (logs[one.rows[0]] + logs[one.rows[-1]]) / 2
             log_f = one.moved(mode.label, logs[mode.label], mean)
             mode = replace(mode, frequency_hz=float(np.exp(log_f)))
-        if mode.label in paired:
-            modes.append(mode)
+        modes.append(mode)
     modes.sort(key=lambda mode: mode.frequency_hz)
     return replace(test, modes=tuple(modes), splits=tuple(_with_angle(split, drawn) for split in test.splits))
 
@@ -91,7 +91,6 @@ def _again(feature: Feature, noise: Callable[[], float]) -> float:
 
 def _with_angle(split: MeasuredSplit, drawn: Mapping[str, _Doublet]) -> MeasuredSplit:
     one = drawn.get(split.lower)
-    known = one is not None and one.split is not None and split.upper in one.rows
-    return (
-        replace(split, relative=one.split) if known and one is not None and one.split is not None else split
-    )
+    if one is None or one.split is None or split.upper not in one.rows:
+        return split
+    return replace(split, relative=one.split)

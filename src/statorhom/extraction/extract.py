@@ -22,9 +22,8 @@ from statorhom.recordings.frf_set import FrfSet
 
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
-Start = tuple[
-    ComplexArray, ComplexArray, Stabilization
-]  # stable poles and participations, and what tells them
+# stable poles and participations, and what tells them
+Start = tuple[ComplexArray, ComplexArray, Stabilization]
 
 _BROAD = 0.1  # loss factor from which on a mode has no peak of its own among others; then …
 _KNOWN = 5e-4  # … its frequency's standard deviation must be less than this part of it

@@ -98,9 +98,10 @@ class ModeSearch:
         for number in range(_SWEEPS):
             before = self.modes
             self._sweep()
-            given_up = number == 0 and hopeless is not None and hopeless(self._windows())
-            if given_up or _settled(before, self.modes):
+            if _settled(before, self.modes):
                 break
+            if number == 0 and hopeless is not None and hopeless(found := self._windows()):
+                return [self._checked(one) for one in found]
         return [self._checked(one) for one in self._windows()]
 
     def _windows(self) -> list[FittedWindow]:
