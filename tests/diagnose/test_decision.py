@@ -98,8 +98,12 @@ def test_few_modes_and_evidence_far_ahead_name() -> None:
     assert decide(seen) == "named"
     assert decide(replace(seen, over_others=4.9)) == "ambiguous"
     # a roving sensor that moves one mode alone, and nothing else that explains anything
-    assert decide(replace(seen, over_others=float("inf"))) == "named"
+    alone = replace(seen, over_others=float("inf"))
+    assert decide(alone) == "named"
     assert decide(replace(seen, over_nothing=19.0)) == "ambiguous"
+    # which of several effects it is takes more evidence than whether the only one is there
+    assert decide(replace(alone, over_nothing=9.0)) == "named"
+    assert decide(replace(alone, over_nothing=7.9)) == "unknown"
 
 
 def test_lines_beside_their_mates_name_where_rivals_are_behind() -> None:

@@ -84,6 +84,7 @@ def test_more_is_asked_where_the_declared_model_is_adequate_or_few_modes_show_it
     assert not few.falls
     assert row(replace(GOOD, held_out=few), "nothing").needed == 20.0
     assert row(replace(GOOD, held_out=few), "others").needed == 5.0
+    assert row(replace(GOOD, held_out=few, over_others=float("inf")), "nothing").needed == 8.0
 
 
 def test_modes_that_show_nothing_neither_pass_nor_fail() -> None:

@@ -92,7 +92,12 @@ class Evidence:
             return self.over_others > OVER_OTHERS and unseen.falls and not unseen.worsens
         if self.over_others <= FAR_OVER_OTHERS:
             return False
-        return unseen.improves and self.over_nothing > FAR_OVER_NOTHING
+        return unseen.improves and self.over_nothing > self.far_over_nothing
+
+    @property
+    def far_over_nothing(self) -> float:
+        """Log evidence that is asked for where few modes show it; less where no other effect explains any of it."""
+        return FAR_OVER_NOTHING if np.isfinite(self.over_others) else OVER_ADEQUATE
 
     @property
     def sound(self) -> bool:

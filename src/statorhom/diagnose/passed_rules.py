@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from statorhom.diagnose.decision import (
-    FAR_OVER_NOTHING,
     FAR_OVER_OTHERS,
     MAX_T_P,
     OVER_OTHERS,
@@ -23,7 +22,7 @@ def rule_rows(e: Evidence, *, pair: bool) -> tuple[RuleRow, ...]:
     pair : whether the best explanation has two effects, the second of which has to be confirmed.
     """
     far = _needs_more_evidence(e)
-    nothing = FAR_OVER_NOTHING if far else e.least_over_nothing
+    nothing = e.far_over_nothing if far else e.least_over_nothing
     others = FAR_OVER_OTHERS if far else OVER_OTHERS
     rows = [
         RuleRow(rule="chance", found=e.p_value, needed=MAX_T_P, passed=not e.by_chance),
