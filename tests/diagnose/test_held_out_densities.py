@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
-import statorhom.diagnose.held_out as module
+import statorhom.diagnose.held_out_modes as module
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.feature import Feature
-from statorhom.diagnose.held_out import WEIGHED, Error, held_out
+from statorhom.diagnose.held_out_modes import WEIGHED, Error, held_out
 
 MODES = tuple(("wound-free", (r, 0, 0)) for r in range(2, 8))
 KNOWN, SD = 7700.0, 90.0

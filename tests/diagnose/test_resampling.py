@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from statorhom.diagnose.held_out import WEIGHED
+from statorhom.diagnose.held_out_modes import WEIGHED
 from statorhom.diagnose.refit import Refit, log_volume
 from statorhom.diagnose.resampling import resampled_evidence, stability, wins
 

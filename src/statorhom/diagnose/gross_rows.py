@@ -11,7 +11,8 @@ from dataclasses import replace
 
 from statorhom.diagnose.explanations import Explanation, explained
 from statorhom.diagnose.feature import Feature
-from statorhom.diagnose.held_out import Group, refit_held
+from statorhom.diagnose.held_out import Group
+from statorhom.diagnose.held_out_modes import refit_held
 from statorhom.diagnose.refit import Refit
 from statorhom.errors import StatorhomError
 

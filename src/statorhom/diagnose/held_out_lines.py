@@ -15,7 +15,8 @@ import numpy.typing as npt
 from statorhom.diagnose.decision import too_few
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.feature import Feature
-from statorhom.diagnose.held_out import Error, Group, HeldOut, held_out, noise_of
+from statorhom.diagnose.held_out import Group, HeldOut
+from statorhom.diagnose.held_out_modes import Error, held_out, noise_of
 from statorhom.diagnose.refit import Refit, covariance_of
 
 WHAT = "one line of each doublet, predicted from the other line and from all other modes"

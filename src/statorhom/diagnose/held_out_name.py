@@ -12,7 +12,8 @@ import numpy as np
 
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.features import measured_sd, own_sd
-from statorhom.diagnose.held_out import HeldOut, refit_held
+from statorhom.diagnose.held_out import HeldOut
+from statorhom.diagnose.held_out_modes import refit_held
 from statorhom.diagnose.prediction import predicted
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.stage_model import BAND

@@ -8,7 +8,7 @@ import numpy as np
 
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.feature import Feature
-from statorhom.diagnose.held_out import LACKING, lacked
+from statorhom.diagnose.held_out_modes import LACKING, lacked
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.sides import one_by_one, opposite_location
 from statorhom.materials.typical_ranges import Z95

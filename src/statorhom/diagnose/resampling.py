@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from statorhom.diagnose.decision import OVER_NOTHING, OVER_OTHERS
 from statorhom.diagnose.explanations import Explanation
-from statorhom.diagnose.held_out import WEIGHED
+from statorhom.diagnose.held_out_modes import WEIGHED
 from statorhom.diagnose.refit import Refit, log_volume
 from statorhom.model.convergence import ModeKey
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.derivatives import jacobian
-from statorhom.diagnose.held_out import groups_of, left_out_errors, refit_held
+from statorhom.diagnose.held_out_modes import groups_of, left_out_errors, refit_held
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.scan import Scan
 from statorhom.errors import StatorhomError
