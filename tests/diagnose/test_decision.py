@@ -29,7 +29,7 @@ def test_all_rules_met_names() -> None:
         ({"over_nothing": 4.0, "nothing_but_one": 0.3}, "none"),
         ({"nothing_but_one": 0.3}, "named"),
         ({"over_others": 2.0}, "ambiguous"),
-        ({"over_discrepancy": -0.5}, "unknown"),
+        ({"over_discrepancy": 2.9}, "unknown"),
         ({"held_out": None}, "ambiguous"),
         ({"held_out": replace(FALLS, after=FALLS.before)}, "unknown"),
         ({"adequacy": 1e-3}, "unknown"),

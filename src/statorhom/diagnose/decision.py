@@ -108,15 +108,15 @@ class Evidence:
     def in_library(self) -> bool:
         """Last part of rule 2: something that is in no library would not do as well.
 
-        What leaves more than noise does has to be as far ahead of that as it is of nothing: lumps in several places
-        look like one, and a mass on a spring like a rigid one, but not quite.
+        It is a candidate like every other one. What leaves more than noise does has to be as far ahead of it as it is of
+        nothing: lumps in several places look like one, and a mass on a spring like a rigid one, but not quite.
         """
         return self.over_discrepancy > self.least_over_discrepancy
 
     @property
     def least_over_discrepancy(self) -> float:
         """Log evidence that is asked for."""
-        return 0.0 if self.adequacy > AS_IT_SHOULD else OVER_NOTHING
+        return OVER_OTHERS if self.adequacy > AS_IT_SHOULD else OVER_NOTHING
 
     @property
     def undecided(self) -> bool:
