@@ -108,7 +108,7 @@ class Evidence:
     def in_library(self) -> bool:
         """Last part of rule 2: something that is in no library would not do as well.
 
-        It is a candidate like every other one. What leaves more than noise does has to be as far ahead of it as it is of
+        It is a candidate like every other. What leaves more than noise does has to be as far ahead of it as it is of
         nothing: lumps in several places look like one, and a mass on a spring like a rigid one, but not quite.
         """
         return self.over_discrepancy > self.least_over_discrepancy
