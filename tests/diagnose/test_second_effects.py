@@ -120,6 +120,7 @@ def found_beside(
     left_p: float = 1e-3,
     confirms: bool = True,
     few: bool = False,
+    stable: float = 1.0,
 ) -> tuple[int, bool]:
     """How many pairs stand beside a lump, and whether held-out modes confirm them."""
     lump = SimpleNamespace(
@@ -131,6 +132,7 @@ def found_beside(
     monkeypatch.setattr(module, "second_effects", lambda *_: [SimpleNamespace(refit=None)])
     monkeypatch.setattr(module, "unseen_modes", lambda *_: held)
     monkeypatch.setattr(module, "too_few", lambda _: few)
+    monkeypatch.setattr(module, "stability", lambda *_: stable)
     base = SimpleNamespace(refit=None, free=None)
     leading: Any = SimpleNamespace(base=base, scan=Scan((), 1e-4))
     pairs, confirmed = module.confirmed_pairs(leading, lump, {}, 0)  # type: ignore[arg-type]
@@ -147,10 +149,13 @@ def test_beside_an_adequate_explanation_a_trace_that_is_no_accident_is_followed(
     # the first alone is named where modes do not confirm the second, or are too few
     assert found_beside(monkeypatch, confirms=False) == (0, True)
     assert found_beside(monkeypatch, confirms=False, few=True) == (0, True)
+    # nor where resampled data are as well explained by it alone
+    assert found_beside(monkeypatch, stable=0.75) == (0, True)
 
 
 def test_what_one_effect_leaves_open_asks_for_a_second(monkeypatch: pytest.MonkeyPatch) -> None:
     assert found_beside(monkeypatch, adequacy=1e-6, left_p=0.2) == (1, True)
+    assert found_beside(monkeypatch, adequacy=1e-6, stable=0.75) == (1, True)
     assert found_beside(monkeypatch, adequacy=1e-6, confirms=False) == (0, True)
     # too few modes to confirm it: told, and not named
     assert found_beside(monkeypatch, adequacy=1e-6, confirms=False, few=True) == (1, False)

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from statorhom.diagnose.decision import MAX_T_P, OVER_NOTHING, too_few
+from statorhom.diagnose.decision import MAX_T_P, OVER_NOTHING, STABLE, too_few
 from statorhom.diagnose.explanations import ADEQUATE, PAIR_GAIN, Explanation, explained, nothing
 from statorhom.diagnose.held_out_lines import unseen_modes
 from statorhom.diagnose.leading_effects import Leading
 from statorhom.diagnose.refit_starts import WORTH, in_order
+from statorhom.diagnose.resampling import stability
 from statorhom.diagnose.scan import Scan, left_over
 from statorhom.diagnose.sharper import sharpened
 from statorhom.diagnose.single_effects import refits
@@ -63,21 +64,22 @@ def confirmed_pairs(
     """An explanation with one more effect, the best first, and whether modes that it did not see confirm that.
 
     None where these contradict; nor where the first alone leaves no more than noise, or one gross error, and is hardly
-    better than nothing, what it leaves is no trace of a second one, or they do not confirm it.
+    better than nothing, what it leaves is no trace of a second one, resampled data can do without that, or unseen modes
+    do not confirm it.
 
     Parameters
     ----------
     leading, first : the single effects, and the best of them.
     counts, seed : as for `leading_effects`.
     """
-    enough = first.adequacy_but_one >= ADEQUATE
-    if enough and first.log_evidence - nothing(leading.base.refit).log_evidence < OVER_NOTHING:
+    enough, none = first.adequacy_but_one >= ADEQUATE, nothing(leading.base.refit)
+    if enough and first.log_evidence - none.log_evidence < OVER_NOTHING:
         return [], True
     left = left_over(may_be_added(first, leading.scan), leading.base.free, first.refit, seed)
     if enough and left.p_value >= MAX_T_P:
         return [], True
     pairs = second_effects(first, left, counts)
-    if not pairs:
+    if not pairs or (enough and stability([pairs[0], none, first], seed) < STABLE):
         return [], True
     # both effects have to hold: the second one against the first alone
     unseen = unseen_modes(first.refit, pairs[0])
