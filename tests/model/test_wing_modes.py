@@ -81,4 +81,5 @@ def test_the_flying_wing_s_modes_are_found_on_the_coarsest_mesh():
         for f in (1.0, 1.5)
     ]
     coarse, fine = np.array(series)
-    assert np.all(fine < coarse) and np.all(fine > 0.997 * coarse)
+    # twice as many cells an axis take another 0.06 % away
+    assert np.all(fine < coarse) and np.all(fine > 0.996 * coarse)
