@@ -47,7 +47,8 @@ def main() -> None:
     hopeless = refused(options.figures) if options.go_on else frozenset()
     new = [case for case in cases if case.name not in kept and case.name not in hopeless]
     if not options.score:
-        each("made", make, work, new, options.jobs)
+        # a process of its own takes seconds to find that a case is there
+        each("made", make, work, [case for case in new if not work.truth(case).exists()], options.jobs)
         write_refused(work.refusals(), options.figures)
     if options.make:
         return
