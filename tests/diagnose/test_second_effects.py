@@ -118,6 +118,7 @@ def found_beside(
     adequacy: float = 0.5,
     over_nothing: float = 60.0,
     left_p: float = 1e-3,
+    repeated_p: float = 5e-3,
     confirms: bool = True,
     few: bool = False,
     stable: float = 1.0,
@@ -129,6 +130,11 @@ def found_beside(
     held = SimpleNamespace(falls=confirms, worsens=False)
     monkeypatch.setattr(module, "nothing", lambda _: SimpleNamespace(log_evidence=0.0))
     monkeypatch.setattr(module, "left_over", lambda *_: SimpleNamespace(p_value=left_p))
+    monkeypatch.setattr(
+        module,
+        "with_repeated_null",
+        lambda _, left, __: SimpleNamespace(p_value=max(left.p_value, repeated_p)),
+    )
     monkeypatch.setattr(module, "second_effects", lambda *_: [SimpleNamespace(refit=None)])
     monkeypatch.setattr(module, "unseen_modes", lambda *_: held)
     monkeypatch.setattr(module, "too_few", lambda _: few)
@@ -144,6 +150,7 @@ def test_beside_an_adequate_explanation_a_trace_that_is_no_accident_is_followed(
 ) -> None:
     assert found_beside(monkeypatch) == (1, True)
     assert found_beside(monkeypatch, left_p=0.2) == (0, True)
+    assert found_beside(monkeypatch, repeated_p=0.02) == (0, True)
     # hardly better than nothing: what would a second effect stand beside?
     assert found_beside(monkeypatch, over_nothing=1.0) == (0, True)
     # the first alone is named where modes do not confirm the second, or are too few

@@ -10,6 +10,7 @@ from statorhom.diagnose.explanations import ADEQUATE, PAIR_GAIN, Explanation, ex
 from statorhom.diagnose.held_out_lines import unseen_modes
 from statorhom.diagnose.leading_effects import Leading
 from statorhom.diagnose.refit_starts import WORTH, in_order
+from statorhom.diagnose.repeated_null import with_repeated_null
 from statorhom.diagnose.resampling import stability
 from statorhom.diagnose.scan import Scan, left_over
 from statorhom.diagnose.sharper import sharpened
@@ -76,7 +77,7 @@ def confirmed_pairs(
     if enough and first.log_evidence - none.log_evidence < OVER_NOTHING:
         return [], True
     left = left_over(may_be_added(first, leading.scan), leading.base.free, first.refit, seed)
-    if enough and left.p_value >= MAX_T_P:
+    if enough and with_repeated_null(first.refit, left, seed).p_value >= MAX_T_P:
         return [], True
     pairs = second_effects(first, left, counts)
     if not pairs or (enough and stability([pairs[0], none, first], seed) < STABLE):
