@@ -10,13 +10,13 @@ from statorhom.diagnose.ring_basis import ring_basis
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.identify.model_error import ModelError
 from statorhom.mesh import uniform
-from statorhom.model.affine import assemble
+from statorhom.model.affine import Materials, assemble
 
 
-def stage_of(kinds: tuple[str, ...], highest_hz: float) -> StageModel:
-    """The last of some steps, up to a frequency."""
+def stage_of(kinds: tuple[str, ...], highest_hz: float, own: Materials | None = None) -> StageModel:
+    """The last of some steps, up to a frequency; `own` materials instead of the usual ones."""
     model = assemble(stator_mesh(12, kinds))
-    materials = {region: MATERIALS[region] for region in model.mesh.regions}
+    materials = {region: {**MATERIALS, **(own or {})}[region] for region in model.mesh.regions}
     setup = SimpleNamespace(keys=SimpleNamespace(name=kinds[-1], tests=()), index=len(kinds) - 1)
     ring = ring_basis(model, [materials], highest_hz, range(5))
     return StageModel(setup, (), ring, materials, ModelError(), uniform(1))  # type: ignore[arg-type]

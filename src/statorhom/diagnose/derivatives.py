@@ -1,4 +1,7 @@
-"""Derivatives of a hypothesis's residuals: constants by analytic slopes of the frequencies, effects by differences."""
+"""Derivatives of a hypothesis's residuals: constants by analytic slopes of the frequencies, effects by differences.
+
+Leans depend on constants too where an effect follows the materials; these are differences as well.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +16,7 @@ from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.frequency_slopes import by_frequency, slopes_of
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.errors import StatorhomError
+from statorhom.study.regions import core_region
 
 FloatArray = npt.NDArray[np.float64]
 # of internal coordinates: much less than a strong effect leaves open of its angle
@@ -49,5 +53,16 @@ def _(h: Hypothesis, z: FloatArray) -> FloatArray:
     known = by_frequency(h, z, told, base)
     nothing = np.zeros(len(base))  # a constant of a step that has no test
     columns = [known.get(j, nothing)[seen] for j in range(h.constants)]
+    leans = np.array([f.kind == "lean" for f in start])
+    for j in _followed(h, z) if leans.any() else ():
+        columns[j] = np.where(leans, difference(h, z, j, start), columns[j])
     columns += [difference(h, z, j, start) for j in range(h.constants, len(z))]
     return np.array(columns).T.reshape(len(start), len(z))
+
+
+def _followed(h: Hypothesis, z: FloatArray) -> list[int]:
+    """Constants of the cores whose materials an effect follows."""
+    if not any(action.follows_materials for action in h.actions(z)):
+        return []
+    cores = tuple(f":{core_region(stage.reference)}." for stage in h.study.stages)
+    return [j for j, name in enumerate(h.study.constants.names) if any(core in name for core in cores)]

@@ -13,6 +13,7 @@ from statorhom.diagnose.dimension_response import dimension_shift
 from statorhom.diagnose.followed_modes import Names, named
 from statorhom.diagnose.order_profiles import reference_profiles
 from statorhom.diagnose.rated_modes import rated_modes
+from statorhom.diagnose.ring_basis import mark_of
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.identify.stage_problem import NamedByMode, seen
@@ -140,7 +141,7 @@ def predicted(
         pairs = zip(actions, mark, strict=True)
         mark = tuple(m for a, m in pairs if a.changes and a.touches(stage.name, test))
     base = _base(stage, materials, here, names)
-    shifts = broken_responses(stage, here, None if mark is None else (test, mark))
+    shifts = broken_responses(stage, here, None if mark is None else (test, mark), materials)
     mesh = values[f"{stage.name}:mesh"]
     own = reference_profiles(stage, stage.heights_m) if stage.heights_m else {}
     found = {}
@@ -168,18 +169,35 @@ def predicted(
 
 
 def broken_responses(
-    stage: StageModel, actions: Sequence[Action], mark: Hashable = None
+    stage: StageModel, actions: Sequence[Action], mark: Hashable = None, materials: Materials | None = None
 ) -> Mapping[ModeKey, Response]:
-    """Shifts and splits by all that breaks the symmetry; those of a few marks are kept."""
+    """Shifts and splits by all that breaks the symmetry; those of a few marks are kept.
+
+    Parameters
+    ----------
+    mark : equal ones say that the actions are the same; None to keep nothing.
+    materials : that changes follow (`Action.follows_materials`); the reference's by default.
+    """
     if not any(a.changes for a in actions):
         return {}
+    there = stage.reference if materials is None else materials
     if mark is None:
-        return _broken_responses(stage, actions)
-    return stage.responses.once(mark, lambda: _broken_responses(stage, actions))
+        return _broken_responses(stage, actions, there)
+    follow = any(a.follows_materials for a in actions)
+    own = (mark, mark_of(there)) if follow else mark
+    return stage.responses.once(own, lambda: _broken_responses(stage, actions, there))
 
 
-def _broken_responses(stage: StageModel, actions: Sequence[Action]) -> Mapping[ModeKey, Response]:
-    changes = [c for a in actions if a.changes for c in a.changes(stage.model.mesh, stage.reference)]
+def _broken_responses(
+    stage: StageModel, actions: Sequence[Action], materials: Materials
+) -> Mapping[ModeKey, Response]:
+    mesh = stage.model.mesh
+    changes = [
+        c
+        for a in actions
+        if a.changes
+        for c in a.changes(mesh, materials if a.follows_materials else stage.reference)
+    ]
     trainings = [a.training for a in actions if a.training is not None]
     return responses(stage, changes, trainings) if changes else {}
 

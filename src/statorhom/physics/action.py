@@ -114,6 +114,8 @@ class Action:
     proportional : whether dimensions act by the slopes of the frequencies alone.
     materials : from the declared materials of a stage to the true ones.
     changes : from mesh and materials to what breaks the symmetry or varies along the axis.
+    follows_materials : whether these are made anew wherever constants move the materials: as part of a mode's stiffness
+        they depend on them.
     training : what a basis has to hold for these changes beside modes.
     joint : a contact in the place of a bond.
     friction : a contact that slips.
@@ -132,6 +134,7 @@ class Action:
     proportional: bool = False
     materials: MaterialRule | None = None
     changes: ChangeRule | None = None
+    follows_materials: bool = False
     training: Training | None = None
     joint: Joint | None = None
     friction: Friction | None = None

@@ -65,6 +65,8 @@ class StackPressureGradient(Effect):
 
         return Action(
             changes=partial(varied, ratio=values["G_rz_end_ratio"]),
+            # where nothing presses on the ends, E_z matters by nu_pz² E_z/E_p alone, which few modes tell
+            follows_materials=True,
             training=Training(self.name, examples),
         )
 
