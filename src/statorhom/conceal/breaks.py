@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -109,10 +109,26 @@ class Strip:
 
     def changes(self, ground: Ground) -> tuple[Change, ...]:
         """On a mesh."""
+        return (self._of(ground, hooke_coefficients(ground.materials["lamination"].hooke))[0],)
+
+    def along(self, slope: AxialSlope, ground: Ground) -> tuple[Change, ...]:
+        """What it takes of the lamination's change along the core: its modulus is a part of that beside it.
+
+        Without this the soft end of a soft strip would have no stiffness left, or less than none.
+        """
+        mean = hooke_coefficients(ground.materials["lamination"].hooke)
+        found = []
+        for material, share in slope.parts(ground):
+            one, heights = self._of(ground, hooke_coefficients(material.hooke) - mean)
+            found.append(replace(one, weights=one.weights * share(heights)[:, None]))
+        return tuple(found)
+
+    def _of(self, ground: Ground, entries: np.ndarray) -> tuple[PieceChange, np.ndarray]:
+        """Of a material or of a change of it, and the heights of its pieces."""
         inner = ground.mesh.outer_radius - self.depth
-        entries = hooke_coefficients(ground.materials["lamination"].hooke)
         core = radial_layers(ground.mesh, "lamination", entries, STRIP_LAYERS, inner)
-        return (strip(core, self.angle, width=self.width, depth=self.depth, ratio=self.ratio),)
+        found = strip(core, self.angle, width=self.width, depth=self.depth, ratio=self.ratio)
+        return found, core.place.z.mean(axis=1)
 
 
 @dataclass(frozen=True)
@@ -144,13 +160,18 @@ class AxialSlope:
 
     def changes(self, ground: Ground) -> tuple[Change, ...]:
         """On a mesh."""
+        return tuple(
+            gradient(ground.mesh, ground.pieces("lamination", material), ("lamination",), share)
+            for material, share in self.parts(ground)
+        )
+
+    def parts(self, ground: Ground) -> Iterator[tuple[Material, Callable[[np.ndarray], np.ndarray]]]:
+        """Materials other than the middle's, and how much of each there is at a height."""
         count = len(self.materials)
         heights = np.linspace(0.0, ground.mesh.length, count)
-        return tuple(
-            gradient(ground.mesh, ground.pieces("lamination", material), ("lamination",), _share(heights, k))
-            for k, material in enumerate(self.materials)
-            if k != count // 2
-        )
+        for k, material in enumerate(self.materials):
+            if k != count // 2:
+                yield material, _share(heights, k)
 
 
 def _share(heights: np.ndarray, number: int) -> Callable[[np.ndarray], np.ndarray]:
@@ -234,6 +255,16 @@ class Tether:
         points = surface_points(ground.mesh, np.array([self.angle]), np.array([self.z]))
         row = np.array([self.direction]) / np.linalg.norm(self.direction)
         return (Attachment(points, row, np.array([[self.stiffness]]), np.zeros((1, 1))),)
+
+
+def all_changes(breaks: Sequence[Break], ground: Ground) -> list[Change]:
+    """Of everything that breaks a stator's symmetry; a strip is a part of a modulus that varies along the core."""
+    found = [change for one in breaks for change in one.changes(ground)]
+    slopes = [one for one in breaks if isinstance(one, AxialSlope)]
+    for one in breaks:
+        if isinstance(one, Strip):
+            found += [change for slope in slopes for change in one.along(slope, ground)]
+    return joined(found)
 
 
 def joined(changes: Sequence[Change]) -> list[Change]:

@@ -9,7 +9,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from statorhom.conceal import frfs
-from statorhom.conceal.breaks import joined
+from statorhom.conceal.breaks import all_changes, joined
 from statorhom.conceal.ground import StageGround, stage_ground
 from statorhom.conceal.listed import ListedMode, listed_modes
 from statorhom.conceal.ritz import Losses, RitzModes, ritz_modes
@@ -102,11 +102,8 @@ def _stage(
 
 
 def _solved(ground: StageGround, stage: TrueStage, test: TrueTest, places: Sensors | None) -> RitzModes:
-    changes: list[Change] = []
+    changes = all_changes((*stage.breaks, *test.breaks), ground)
     lossy: dict[int, float] = {}
-    for broken in (*stage.breaks, *test.breaks):
-        changes += broken.changes(ground)
-    changes = joined(changes)
     if test.elastic is not None:
         lossy[len(changes)] = test.elastic.loss_factor
         changes.append(_springs(ground, test.elastic.lines))
