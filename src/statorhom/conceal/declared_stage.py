@@ -12,6 +12,7 @@ import numpy as np
 
 from statorhom.conceal.ground import truth_mesh
 from statorhom.conceal.truth import Case, TrueMaterial
+from statorhom.errors import MaterialError
 from statorhom.geometry.stator import stator_geometry
 from statorhom.materials.density import REGION_OF_STEP, Weighing, densities
 from statorhom.materials.symmetry import SYMMETRIES, constant_names
@@ -112,12 +113,16 @@ class DeclaredModes:
 
 
 def _hooke_slope(symmetry: str, values: Mapping[str, float], name: str, value: float) -> np.ndarray:
-    """Derivative of the Hooke entries by a constant's logarithm."""
-    high, low = (
-        hooke_coefficients(SYMMETRIES[symmetry](**{**values, name: value * (1 + s)}).hooke())
-        for s in (STEP, -STEP)
-    )
-    return (high - low) / (2 * STEP)
+    """Derivative of the Hooke entries by a constant's logarithm; at the edge of what materials exist, to its inside."""
+    ends = []
+    for step in (STEP, -STEP):
+        try:
+            moved = SYMMETRIES[symmetry](**{**values, name: value * (1 + step)})
+        except MaterialError:
+            moved, step = SYMMETRIES[symmetry](**values), 0.0
+        ends.append((step, hooke_coefficients(moved.hooke())))
+    (above, high), (below, low) = ends
+    return np.asarray((high - low) / (above - below))
 
 
 def declared_stage(case: Case, index: int, density: MeshDensity | None) -> DeclaredStage:
