@@ -242,6 +242,19 @@ def test_a_tighter_tolerance_is_met():
     np.testing.assert_allclose(found.frequencies_hz, exact, rtol=1e-5)
 
 
+def test_changes_that_are_nowhere_together_may_lose_more_than_there_is():
+    """Two soft arcs, each as a change of its own, and as one change."""
+    w, basis = stator("stack"), basis_of("stack")
+    pieces = region_stiffness(w.half, MATERIALS, LAMINATION)
+    place = cells(w.half, elements_in(w.half, LAMINATION))
+    arcs = [arc(pieces, place, start, start + 0.6, 0.2) for start in (0.3, 3.0)]
+    twin = PieceChange(region_stiffness(w.half, MATERIALS, LAMINATION), None, arcs[1].weights)
+    together = PieceChange(pieces, None, arcs[0].weights + arcs[1].weights)
+    apart = solve_broken(basis, [arcs[0], twin])
+    one = solve_broken(basis, [together])
+    np.testing.assert_allclose(apart.frequencies_hz, one.frequencies_hz, rtol=1e-3)
+
+
 def test_surface_motion_is_the_whole_shapes():
     _, found, _, _ = solved("loose arc and lump")
     w = stator("wound")

@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from statorhom.errors import SolverError
 from statorhom.model.broken.basis import SymmetricBasis
 from statorhom.model.broken.change import PieceChange
 from statorhom.model.broken.enrich import extended
@@ -32,7 +33,11 @@ def softened(basis: SymmetricBasis, changes: Sequence[PieceChange]) -> Symmetric
         least = np.minimum(change.weights.min(axis=1), 0.0)
         known = next((w for p, w in basis.softest if p is change.stiffness), np.zeros(len(least)))
         if np.any(least < known - SLIGHT * (1 + known)):
-            basis = _with(basis, change.stiffness, known, np.minimum(least, known))
+            try:
+                basis = _with(basis, change.stiffness, known, np.minimum(least, known))
+            except SolverError:
+                # nothing may be left where all changes are at their least at once, which they are in no copy
+                continue
     return basis
 
 
