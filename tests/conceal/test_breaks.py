@@ -4,30 +4,23 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from small_stators import stator_mesh
+from small_stators import pressed_sheets, stator_mesh
 
 from statorhom.conceal.breaks import AxialSlope, Break, Strip, Wave, all_changes
 from statorhom.conceal.ground import StageGround
-from statorhom.materials.transversely_isotropic import TransverselyIsotropic
-from statorhom.model.affine import Material, assemble
+from statorhom.model.affine import assemble
 from statorhom.model.broken.change import PieceChange
 
 RATIO = 0.3
 
 
-def sheets(pressure: float = 0.0) -> Material:
-    """Of a stack; `pressure`: relative surplus of what it makes stiffer."""
-    hooke = TransverselyIsotropic(190e9, 60e9 * (1 + pressure), 0.28, 0.3, 25e9 * (1 + pressure)).hooke()
-    return Material(hooke, 7700.0)
-
-
-SLOPE = AxialSlope((sheets(-0.8), sheets(), sheets(0.8)))
+SLOPE = AxialSlope((pressed_sheets(-0.8), pressed_sheets(), pressed_sheets(0.8)))
 
 
 @pytest.fixture(scope="module")
 def ground() -> StageGround:
     model = assemble(stator_mesh(12))
-    return StageGround(model, {"lamination": sheets()}, None, 1000.0, 5000.0)
+    return StageGround(model, {"lamination": pressed_sheets()}, None, 1000.0, 5000.0)
 
 
 def stiffness(ground: StageGround, breaks: tuple[Break, ...]) -> np.ndarray:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from small_stage import stage_of
+from small_stators import pressed_sheets
 from template_hypothesis import template_hypothesis
 
 from statorhom.diagnose import derivatives
@@ -18,8 +19,7 @@ from statorhom.diagnose.lean import profile_lean
 from statorhom.diagnose.measured import MeasuredTest, Sideband
 from statorhom.diagnose.prediction import broken_responses
 from statorhom.diagnose.stage_model import StageModel
-from statorhom.materials.transversely_isotropic import TransverselyIsotropic
-from statorhom.model.affine import Material, assemble
+from statorhom.model.affine import assemble
 from statorhom.model.free_modes import solve_free
 from statorhom.model.radial_profile import radial_profile
 from statorhom.physics.action import Action
@@ -34,16 +34,10 @@ FREE = "frequency_hz,order,axial\n1428,2,0\n1766,2,1\n3770,3,0\n"
 PLANES = 4
 
 
-def sheets(nu_pz: float, pressure: float = 0.0) -> Material:
-    """Of a stack; `pressure`: relative surplus of what it makes stiffer."""
-    hooke = TransverselyIsotropic(190e9, 60e9 * (1 + pressure), 0.28, nu_pz, 25e9 * (1 + pressure)).hooke()
-    return Material(hooke, 7700.0)
-
-
 @pytest.fixture(scope="module")
 def stage() -> StageModel:
     """A stack on which shapes were measured in four planes."""
-    bare = stage_of(("stack",), 9000.0, {"lamination": sheets(NU_PZ)})
+    bare = stage_of(("stack",), 9000.0, {"lamination": pressed_sheets(nu_pz=NU_PZ)})
     shapes: Any = SimpleNamespace(z_m=np.linspace(0.1, 0.9, PLANES) * bare.model.mesh.length)
     return replace(bare, tests=(MeasuredTest(0, "t", "free", (), shapes=shapes),))
 
@@ -54,7 +48,7 @@ def layered_lean(stage: StageModel, nu_pz: float) -> float:
     heights = mesh.nodes[mesh.elements].mean(axis=1)[:, 2] / mesh.length
     layers = np.unique(np.round(heights, 9))
     slope = (RATIO - 1) / (RATIO + 1)
-    materials = {f"layer {z}": sheets(nu_pz, slope * (2 * z - 1)) for z in layers.tolist()}
+    materials = {f"layer {z}": pressed_sheets(slope * (2 * z - 1), nu_pz) for z in layers.tolist()}
     along = mesh.nodes[:, 2] / mesh.length
     nodes = mesh.nodes + UNEVEN * mesh.length * np.outer(along**2, [0.0, 0.0, 1.0])
     own = np.array([int(np.argmin(np.abs(layers - z))) for z in heights])
@@ -83,7 +77,9 @@ def test_a_stack_leans_as_its_layers_do_whatever_poissons_ratio(
     stage: StageModel, action: Action, nu_pz: float
 ) -> None:
     planes = np.array(stage.heights_m)
-    profile = broken_responses(stage, [action], None, {"lamination": sheets(nu_pz)})[KEY].profile
+    profile = broken_responses(stage, [action], None, {"lamination": pressed_sheets(nu_pz=nu_pz)})[
+        KEY
+    ].profile
     assert profile is not None
     assert profile_lean(profile, planes, planes) == pytest.approx(layered_lean(stage, nu_pz), rel=0.05)
 

@@ -26,6 +26,12 @@ MATERIALS = {"lamination": STACK, "winding": WINDING, "overhang": WINDING}
 ORTHOTROPIC = Orthotropic(190e9, 170e9, 90e9, 0.28, 0.35, 0.31, 66e9, 21e9, 28e9)
 
 
+def pressed_sheets(surplus=0.0, nu_pz=0.3):
+    """Material of a stack; `surplus`: relative, of what more pressure makes stiffer."""
+    hooke = TransverselyIsotropic(190e9, 60e9 * (1 + surplus), 0.28, nu_pz, 25e9 * (1 + surplus)).hooke()
+    return Material(hooke, 7700.0)
+
+
 def geometry(slots, *, outer_mm=120.0, bore_mm=70.0, length_mm=80.0, **tables):
     """Geometry of `slots` (a table of the geometry file), with further tables as keywords."""
     core = {
