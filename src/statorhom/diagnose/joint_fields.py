@@ -16,7 +16,6 @@ from statorhom.model.affine import Materials
 from statorhom.model.harmonic import Harmonic, harmonic_spaces
 from statorhom.model.radial_profile import radial_profile
 
-BEYOND = 6  # orders above the named ones that the ends of an arc bring in
 MOST = 20  # vectors that one problem gains
 LEAST = 1e-4  # part of a vector's energy that the others must leave to it
 WEAK = 3e10  # N/m³: contact in whose energy the vectors are weighed
@@ -35,11 +34,11 @@ def with_local_fields(ring: RingBasis, materials: Materials, joint: sp.csr_array
     mesh = model.mesh
     K, M = model.stiffness_matrix(materials), model.mass_matrix(materials)
     energy = sp.csr_array(K + WEAK * joint + (2 * np.pi * ring.highest_hz) ** 2 * M)
-    named = {p.space.order for p in ring.problems}
     angle = np.repeat(np.arctan2(mesh.nodes[:, 1], mesh.nodes[:, 0]), 3)[:, None]
     profile, terms = radial_profile(mesh), affine_terms(model)
     problems = []
-    for order in range(min(max(named) + BEYOND, mesh.slots // 2) + 1):
+    # all that the mesh has: with fewer, what parts within a few pitches would strain the bond of all others
+    for order in range(mesh.slots // 2 + 1):
         known = [p for p in ring.problems if p.space.order == order]
         for problem in [*known, *_missing(ring, order)]:
             space = problem.space
