@@ -69,7 +69,8 @@ class Search:
         return SimpleNamespace(hypothesis=hypothesis, z=z, objective=self.objective(hypothesis, z))
 
     def refitted(self, hypothesis: Hypothesis, z: np.ndarray) -> Any:
-        self.turned.append(z)
+        if hypothesis.name != "own":
+            self.turned.append(z)
         return SimpleNamespace(hypothesis=hypothesis, z=z, objective=self.objective(hypothesis, z))
 
 
@@ -119,6 +120,20 @@ def test_a_winding_without_a_model_of_its_own_is_judged_last(monkeypatch: pytest
     monkeypatch.setattr(module, "in_its_own_model", impossible)
     objective, z = module._judged(Hypothesis(), np.zeros(7))  # type: ignore[arg-type]
     assert objective == np.inf and not z.any()
+
+
+@pytest.mark.parametrize("direct", [True, False])
+def test_of_both_ways_into_a_model_of_its_own_the_better_one_counts(
+    search: Search, monkeypatch: pytest.MonkeyPatch, direct: bool
+) -> None:
+    best = start().z
+    ways = {"refitted": search.refitted, "by_degrees": search.by_degrees}
+    other = "by_degrees" if direct else "refitted"
+    # its arc is a third as wide in the end
+    astray = np.r_[best[:3], ARCS.parameters[0].internal(20.0), best[4:]]
+    monkeypatch.setattr(module, other, lambda h, _: ways[other](h, astray))
+    _, z = module._judged(Hypothesis(), best)  # type: ignore[arg-type]
+    assert np.array_equal(z, best)
 
 
 @pytest.mark.usefixtures("search")

@@ -13,6 +13,7 @@ from small_stators import MATERIALS, stator_mesh
 from statorhom.diagnose.feature import SINGLE
 from statorhom.diagnose.joint_basis import JoinedMode, JointBasis, joint_basis
 from statorhom.materials.hooke import Hooke
+from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Material, assemble, hooke_coefficients
 from statorhom.model.broken.basis import symmetric_basis
 from statorhom.model.broken.cells import Sectors
@@ -83,12 +84,14 @@ def test_slopes_by_the_winding_are_those_of_the_full_model(basis: JointBasis) ->
         assert slope == pytest.approx(exact, rel=0.03)
 
 
-def on_the_mesh(width: float, ratio: float, highest_hz: float = 3000.0) -> np.ndarray:
+def on_the_mesh(
+    width: float, ratio: float, highest_hz: float = 3000.0, mesh: HalfPitchMesh | None = None
+) -> np.ndarray:
     """Frequencies (Hz) of the full model."""
-    half = split(stator_mesh(SLOTS, ("stack", "wound")), WOUND)
+    half = split(mesh or stator_mesh(SLOTS, ("stack", "wound")), WOUND)
     joint = contact(half, WOUND, BOND, BOND)
     full_basis = symmetric_basis(assemble(half), MATERIALS, highest_hz, margin=1.5, contact=joint.matrix)
-    share = Sectors(np.array([[0.0, np.pi / SLOTS]]), SLOTS).share_of_arc(-width / 2, width / 2)
+    share = Sectors(np.array([[0.0, np.pi / half.slots]]), half.slots).share_of_arc(-width / 2, width / 2)
     weights = np.repeat(ratio**share - 1, len(joint.pieces), axis=0)
     return solve_broken(full_basis, [PieceChange(joint.pieces, None, weights)]).frequencies_hz
 
@@ -113,6 +116,18 @@ def test_a_weak_arc_shifts_and_splits_as_in_the_full_model(
     assert mean >= near.mean() - 0.5
     split_hz = 0.5 * abs(found[2, 0, 0].split) * mean
     assert split_hz == pytest.approx(np.ptp(near), abs=part * (bonded - near.mean()))
+
+
+def test_one_tooth_of_many_parts_as_in_the_full_model() -> None:
+    """That takes all harmonics of the mesh: without the highest ones next to nothing of the shift is left."""
+    mesh = stator_mesh(24, ("stack", "wound"), tooth_width_mm=4.5)
+    tooth = Joint(WOUND, BOND, BOND, (0.0, np.deg2rad(15.0)), 1e-3)
+    own = joint_basis(mesh, WOUND, MATERIALS, 3000.0, range(4), may_differ=True, arcs=[tooth])
+    even, found = (own.solve(MATERIALS, joint)[2, 0, 0] for joint in (Joint(WOUND, BOND, BOND), tooth))
+    bonded, mean = np.exp(even.log_f), np.exp(found.log_f)
+    exact = on_the_mesh(tooth.arc[1], tooth.ratio, 2000.0, mesh)[:2]
+    assert bonded - mean == pytest.approx(bonded - exact.mean(), rel=0.1)
+    assert 0.5 * abs(found.split) * mean == pytest.approx(np.ptp(exact), rel=0.1)
 
 
 def test_the_place_of_an_arc_turns_the_splits_alone(basis: JointBasis) -> None:

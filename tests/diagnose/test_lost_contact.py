@@ -52,9 +52,18 @@ class Search:
         monkeypatch.setattr(module, "by_degrees", self.refit)
 
     @staticmethod
-    def explanation(log_evidence: float, refit: Any = None, adequacy: float = 0.0) -> Any:
+    def explanation(
+        log_evidence: float,
+        refit: Any = None,
+        adequacy: float = 0.0,
+        candidates: Sequence[Candidate] = (LUMP,),
+    ) -> Any:
         return SimpleNamespace(
-            log_evidence=log_evidence, refit=refit, adequacy=adequacy, adequacy_but_one=adequacy
+            log_evidence=log_evidence,
+            refit=refit,
+            adequacy=adequacy,
+            adequacy_but_one=adequacy,
+            candidates=candidates,
         )
 
     def explained(self, r: Any, _: Any) -> Any:
@@ -104,6 +113,18 @@ def test_nothing_is_sought_where_something_explains_the_misfit(monkeypatch: pyte
     enough = search.explanation(-20.0, adequacy=0.3)
     assert with_lost_contact(search.base, [enough], [ARCS], {}) == []
     assert not search.begun
+
+
+@pytest.mark.parametrize(("objective", "sought"), [(55.0, True), (35.0, False)])
+def test_an_arc_that_leads_has_to_leave_no_more_than_noise_in_losses_too(
+    monkeypatch: pytest.MonkeyPatch, objective: float, sought: bool
+) -> None:
+    search = Search(monkeypatch, (90.0, 40.0, 32.0))
+    refit = SimpleNamespace(objective=objective, jacobian=np.zeros((36, 8)))
+    arc = search.explanation(-objective, refit, adequacy=0.5, candidates=(ARCS,))
+    found = with_lost_contact(search.base, [arc], [ARCS], {})
+    assert bool(search.begun) == sought
+    assert [e.refit.objective for e in found] == ([32.0] if sought else [])
 
 
 def test_an_arc_that_explains_less_is_no_news(monkeypatch: pytest.MonkeyPatch) -> None:

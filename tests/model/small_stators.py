@@ -44,9 +44,9 @@ def geometry(slots, *, outer_mm=120.0, bore_mm=70.0, length_mm=80.0, **tables):
     return stator_geometry(GeometryFile.model_validate(file), Path("small.toml"))
 
 
-def stator_mesh(count, kinds=("stack",), density=None):
+def stator_mesh(count, kinds=("stack",), density=None, *, tooth_width_mm=12.0):
     """Half a pitch of a small stator with `count` wide slots."""
-    slots = {"shape": "parallel_tooth", "count": count, "tooth_width_mm": 12.0}
+    slots = {"shape": "parallel_tooth", "count": count, "tooth_width_mm": tooth_width_mm}
     winding = {"overhang_length_mm": 20.0}
     return mesh_step(geometry(slots, winding=winding).step(kinds), density or uniform(1))
 

@@ -118,5 +118,7 @@ def _judged(start: Hypothesis, z: np.ndarray) -> tuple[float, np.ndarray]:
         own = in_its_own_model(start, z, mesh_known=True, around=(1.0,))
     except (StatorhomError, KeyError):
         return np.inf, z
-    found = by_degrees(own, z)
-    return (np.inf, z) if found is None else (found.objective, found.z)
+    # few vectors are off by percents: from there either way may be led astray by another order's lines
+    found = [r for r in (refitted(own, z), by_degrees(own, z)) if r is not None]
+    best = min(found, key=lambda r: r.objective, default=None)
+    return (np.inf, z) if best is None else (best.objective, best.z)

@@ -1,4 +1,4 @@
-"""A contact that is lost over an arc, where nothing else explains the misfit.
+"""A contact that is lost over an arc, where nothing explains the misfit, or only an arc does and not well.
 
 The declared model, whose winding holds on everywhere, takes the lost contact for a winding that is ten or fifty times
 too soft, and so softly held a winding has no use for a contact that is lost. So arcs are sought beside windings all
@@ -9,9 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from scipy.stats import chi2
+
 from statorhom.diagnose.arc_search import RANGES, TRAINED, arc_beside_any_winding
 from statorhom.diagnose.constants import new_constants
-from statorhom.diagnose.explanations import ADEQUATE, Explanation, blank, by_degrees, explained, nothing
+from statorhom.diagnose.explanations import (
+    ADEQUATE,
+    WELL,
+    Explanation,
+    blank,
+    by_degrees,
+    explained,
+    nothing,
+)
 from statorhom.diagnose.refit import Refit, evaluated
 from statorhom.diagnose.refit_starts import start_of
 from statorhom.diagnose.scan import starts as scan_starts
@@ -38,10 +48,21 @@ def with_lost_contact(
     if not arcs:
         return []
     best = found[0] if found else nothing(base)
-    if max(best.adequacy_but_one, nothing(base).adequacy) > ADEQUATE:
+    if _is_settled(best, arcs) or nothing(base).adequacy > ADEQUATE:
         return []
     own = (explained(r, counts) for c in arcs if (r := _sought(base, c)) is not None)
     return [e for e in own if e.log_evidence > best.log_evidence]
+
+
+def _is_settled(best: Explanation, arcs: Sequence[Candidate]) -> bool:
+    """Whether what leads leaves nothing to explain.
+
+    An arc has valleys where frequencies alone are right: its losses, which follow the contact, tell these apart.
+    """
+    if best.candidates and best.candidates[-1] in arcs:
+        # with the priors, which losses and contacts that nobody has seen strain
+        return float(chi2.sf(best.refit.objective, len(best.refit.jacobian))) > WELL
+    return best.adequacy_but_one > ADEQUATE
 
 
 def _sought(base: Refit, candidate: Candidate) -> Refit | None:
