@@ -112,13 +112,25 @@ def _best(start: Hypothesis, found: Sequence[Refit]) -> np.ndarray:
 def _judged(start: Hypothesis, z: np.ndarray) -> tuple[float, np.ndarray]:
     """Objective and coordinates of the optimum next to some, where its materials and its arc are solved.
 
-    The model is not handed on: it is larger than what it takes to make it again once.
+    Few vectors are off by percents: from there either way into a model of its own may be led astray by lines of
+    another order, and only the model of what it leads to shows it. That one is not handed on: it is larger than what
+    it takes to make it again once.
     """
-    try:
-        own = in_its_own_model(start, z, mesh_known=True, around=(1.0,))
-    except (StatorhomError, KeyError):
+    near = _in_model_of(start, z, (refitted, by_degrees))
+    if near is None:
         return np.inf, z
-    # few vectors are off by percents: from there either way may be led astray by another order's lines
-    found = [r for r in (refitted(own, z), by_degrees(own, z)) if r is not None]
-    best = min(found, key=lambda r: r.objective, default=None)
-    return (np.inf, z) if best is None else (best.objective, best.z)
+    again = _in_model_of(near.hypothesis, near.z, (by_degrees,))
+    best = near if again is None or again.objective > near.objective else again
+    return best.objective, best.z
+
+
+def _in_model_of(
+    hypothesis: Hypothesis, z: np.ndarray, ways: Sequence[Callable[[Hypothesis, np.ndarray], Refit | None]]
+) -> Refit | None:
+    """The best optimum in the model of a point; None where no body has its constants."""
+    try:
+        own = in_its_own_model(hypothesis, z, mesh_known=True, around=(1.0,))
+    except (StatorhomError, KeyError):
+        return None
+    found = [r for way in ways if (r := way(own, z)) is not None]
+    return min(found, key=lambda r: r.objective, default=None)

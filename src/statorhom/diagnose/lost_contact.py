@@ -55,14 +55,14 @@ def with_lost_contact(
 
 
 def _is_settled(best: Explanation, arcs: Sequence[Candidate]) -> bool:
-    """Whether what leads leaves nothing to explain, not even one row: a lump does nearly what a narrow arc does.
+    """Whether what leads leaves nothing to explain.
 
     An arc has valleys where frequencies alone are right: its losses, which follow the contact, tell these apart.
     """
     if best.candidates and best.candidates[-1] in arcs:
         # with the priors, which losses and contacts that nobody has seen strain
         return float(chi2.sf(best.refit.objective, len(best.refit.jacobian))) > WELL
-    return best.adequacy > ADEQUATE
+    return best.adequacy_but_one > ADEQUATE
 
 
 def _sought(base: Refit, candidate: Candidate) -> Refit | None:
