@@ -94,7 +94,7 @@ def test_the_best_winding_and_arc_of_all_that_are_tried_is_found(search: Search)
     assert search.objective(Hypothesis(), z) < 0.5
     assert len(search.followed) == FOLLOWED and len(search.turned) == LEADING
     # once in the model of what few vectors lead to, once in that of what this one does
-    assert len(search.judged) in (0, 2 * MODELS)
+    assert len(search.judged) in (2, 2 * MODELS)
 
 
 @pytest.mark.usefixtures("search")

@@ -101,10 +101,8 @@ def _all_around(hypothesis: Hypothesis, z: np.ndarray) -> list[np.ndarray]:
 
 
 def _best(start: Hypothesis, found: Sequence[Refit]) -> np.ndarray:
-    """Of the last ones that are near each other, the one that leaves least in a model of its own."""
+    """Of the last ones that are near each other, the one that leaves least in a model of its own, where that led it."""
     near = [r for r in found if r.objective < found[0].objective + FAR_BEHIND][:MODELS]
-    if len(near) == 1:
-        return near[0].z
     judged = side_by_side(partial(_judged, start), [r.z for r in near])
     return min(judged, key=lambda j: j[0])[1]
 
