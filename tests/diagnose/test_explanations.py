@@ -37,6 +37,12 @@ def test_loss_factors_hide_no_misfit() -> None:
     assert lossy.adequacy == pytest.approx(plain.adequacy)
 
 
+def test_to_what_is_asked_of_all_losses_and_an_unusual_effect_are_one() -> None:
+    lossy, large = with_residuals([0.5] * 6, losses=[4.0] * 4), explanation(0.0, 6.0)
+    assert lossy.adequacy > 0.5 > 1e-6 > lossy.adequacy_of_all
+    assert large.adequacy > 0.5 > 1e-6 > large.adequacy_of_all
+
+
 def test_an_implausible_constant_is_one() -> None:
     assert explanation(6.0, 0.0).adequacy == pytest.approx(float(chi2.sf(44.0, 10)))
 

@@ -86,6 +86,11 @@ class Explanation(Generic[H]):
         return float(np.mean(_rests(rows) >= self._misfit - worst))
 
     @property
+    def adequacy_of_all(self) -> float:
+        """The same with losses and shapes too, and with what is unusual by the priors of the effects."""
+        return float(chi2.sf(self.refit.objective, max(len(self.refit.jacobian), 1)))
+
+    @property
     def _misfit(self) -> float:
         r = self.refit
         effect = slice(r.hypothesis.constants, None)

@@ -9,8 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from scipy.stats import chi2
-
 from statorhom.diagnose.arc_search import RANGES, TRAINED, arc_beside_any_winding
 from statorhom.diagnose.constants import new_constants
 from statorhom.diagnose.explanations import (
@@ -57,11 +55,11 @@ def with_lost_contact(
 def _is_settled(best: Explanation, arcs: Sequence[Candidate]) -> bool:
     """Whether what leads leaves nothing to explain.
 
-    An arc has valleys where frequencies alone are right: its losses, which follow the contact, tell these apart.
+    An arc has valleys where frequencies alone are right: its losses, which follow the contact, tell these apart, and
+    contacts that nobody has seen strain the priors.
     """
     if best.candidates and best.candidates[-1] in arcs:
-        # with the priors, which losses and contacts that nobody has seen strain
-        return float(chi2.sf(best.refit.objective, len(best.refit.jacobian))) > WELL
+        return best.adequacy_of_all > WELL
     return best.adequacy_but_one > ADEQUATE
 
 
