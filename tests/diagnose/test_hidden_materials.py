@@ -14,9 +14,11 @@ from statorhom.diagnose.hidden_materials import GAIN, beside_hidden_materials
 DECLARED = 200.0  # objective in wide valleys
 
 
-def explanation(log_evidence: float, adequacy: float = 0.0) -> Any:
-    refit = SimpleNamespace(log_evidence=log_evidence)
-    return SimpleNamespace(log_evidence=log_evidence, adequacy_but_one=adequacy, refit=refit)
+def explanation(log_evidence: float, adequacy: float = 0.0, effects: int = 2) -> Any:
+    refit, candidates = SimpleNamespace(log_evidence=log_evidence), (None,) * effects
+    return SimpleNamespace(
+        log_evidence=log_evidence, adequacy_but_one=adequacy, refit=refit, candidates=candidates
+    )
 
 
 def leading(*effects: str) -> Any:
@@ -69,6 +71,7 @@ def stand_ins(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
         "widened": lambda *_: SimpleNamespace(objective=DECLARED),
         "left_over": lambda *_: None,
         "may_be_added": lambda *_: None,
+        "with_both_needed": lambda pairs, _: pairs,
         "explained": lambda first, _: first,
         "_in_narrow_valleys": lambda rough, _: SimpleNamespace(name=rough.hypothesis.name, refit=None),
     }
@@ -101,6 +104,14 @@ def test_no_pair_where_there_is_nothing_to_gain(stand_ins: dict[str, Any], name:
 def test_an_explanation_that_leaves_no_more_than_noise_hides_nothing(stand_ins: dict[str, Any]) -> None:
     assert pairs_beside(adequacy=0.5) == ([], True)
     assert stand_ins["tried"] == []
+
+
+def test_an_effect_that_needs_no_other_one_needs_no_confirmation(
+    stand_ins: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "with_both_needed", lambda *_: [explanation(-3.0, effects=1)])
+    stand_ins["unseen"] = (False, False)
+    assert pairs_beside() == ([-3.0], True)
 
 
 @pytest.mark.parametrize("unseen", [(False, False), (True, True)])

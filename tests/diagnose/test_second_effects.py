@@ -122,6 +122,7 @@ def found_beside(
     confirms: bool = True,
     few: bool = False,
     stable: float = 1.0,
+    needed: bool = True,
 ) -> tuple[int, bool]:
     """How many pairs stand beside a lump, and whether held-out modes confirm them."""
     lump = SimpleNamespace(
@@ -135,7 +136,9 @@ def found_beside(
         "with_repeated_null",
         lambda _, left, __: SimpleNamespace(p_value=max(left.p_value, repeated_p)),
     )
-    monkeypatch.setattr(module, "second_effects", lambda *_: [SimpleNamespace(refit=None)])
+    pair, alone = (SimpleNamespace(refit=None, candidates=(None,) * count) for count in (2, 1))
+    monkeypatch.setattr(module, "second_effects", lambda *_: [pair])
+    monkeypatch.setattr(module, "with_both_needed", lambda pairs, _: pairs if needed else [alone])
     monkeypatch.setattr(module, "unseen_modes", lambda *_: held)
     monkeypatch.setattr(module, "too_few", lambda _: few)
     monkeypatch.setattr(module, "stability", lambda *_: stable)
@@ -158,6 +161,13 @@ def test_beside_an_adequate_explanation_a_trace_that_is_no_accident_is_followed(
     assert found_beside(monkeypatch, confirms=False, few=True) == (0, True)
     # nor where resampled data are as well explained by it alone
     assert found_beside(monkeypatch, stable=0.75) == (0, True)
+
+
+def test_an_effect_that_needs_no_other_one_takes_the_place_of_the_pair(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Nothing is asked of a second effect then."""
+    assert found_beside(monkeypatch, needed=False, confirms=False, stable=0.0) == (1, True)
 
 
 def test_what_one_effect_leaves_open_asks_for_a_second(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -159,11 +159,17 @@ def _with_pairs(
     hidden, confirmed = beside_hidden_materials(leading, found[0], counts, seed)
     if hidden and hidden[0].adequacy_but_one > ADEQUATE:
         # a model of its own would not bring any single effect so far
-        return hidden + found, confirmed
+        return _instead(found, hidden), confirmed
     if _is_open(found):
         found = approach.refined(found, leading.base.valleys, counts)
     pairs, confirmed = confirmed_pairs(leading, found[0], counts, seed)
-    return pairs + found, confirmed
+    return _instead(found, pairs), confirmed
+
+
+def _instead(found: Sequence[Explanation], better: Sequence[Explanation]) -> list[Explanation]:
+    """Better explanations, and those that they do not stand for."""
+    labels = {e.label for e in better}
+    return [*better, *(e for e in found if e.label not in labels)]
 
 
 def _is_open(found: Sequence[Explanation]) -> bool:

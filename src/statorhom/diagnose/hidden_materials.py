@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
+from statorhom.diagnose.alone import with_both_needed
 from statorhom.diagnose.explanations import (
     ADEQUATE,
     PAIR_GAIN,
@@ -35,6 +36,7 @@ def beside_hidden_materials(
 ) -> tuple[list[Explanation], bool]:
     """Pairs of an effect on the materials and another one, the best first, and whether unseen modes confirm them.
 
+    Or the one of the two that needs no other one.
     None where the best explanation is adequate, or no pair explains more.
 
     Parameters
@@ -49,11 +51,10 @@ def beside_hidden_materials(
     for first in _with_other_materials(leading, counts):
         left = left_over(may_be_added(first, leading.scan), base, first.refit, seed)
         found += second_effects(first, left, counts)
-    pairs = sorted(
-        (e for e in found if e.log_evidence > best.log_evidence + PAIR_GAIN), key=lambda e: -e.log_evidence
-    )
-    if not pairs:
-        return [], True
+    enough = (e for e in found if e.log_evidence > best.log_evidence + PAIR_GAIN)
+    pairs = with_both_needed(sorted(enough, key=lambda e: -e.log_evidence), counts)
+    if not pairs or len(pairs[0].candidates) < 2:
+        return pairs, True
     unseen = unseen_modes(best.refit, pairs[0])
     return pairs, unseen.falls and not unseen.worsens
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from statorhom.diagnose.alone import with_both_needed
 from statorhom.diagnose.decision import MAX_T_P, OVER_NOTHING, STABLE, too_few
 from statorhom.diagnose.explanations import ADEQUATE, PAIR_GAIN, Explanation, explained, nothing
 from statorhom.diagnose.held_out_lines import unseen_modes
@@ -64,9 +65,10 @@ def confirmed_pairs(
 ) -> tuple[list[Explanation], bool]:
     """An explanation with one more effect, the best first, and whether modes that it did not see confirm that.
 
-    None where these contradict; nor where the first alone leaves no more than noise, or one gross error, and is hardly
-    better than nothing, what it leaves is no trace of a second one, resampled data can do without that, or unseen modes
-    do not confirm it.
+    Or the one of the two that needs no other one, from the constants that the pair led to. None where unseen modes
+    contradict; nor where the first alone leaves no more than noise, or one gross error, and is hardly better than
+    nothing, what it leaves is no trace of a second one, resampled data can do without that, or unseen modes do not
+    confirm it.
 
     Parameters
     ----------
@@ -79,7 +81,9 @@ def confirmed_pairs(
     left = left_over(may_be_added(first, leading.scan), leading.base.free, first.refit, seed)
     if enough and with_repeated_null(first.refit, left, seed).p_value >= MAX_T_P:
         return [], True
-    pairs = second_effects(first, left, counts)
+    pairs = with_both_needed(second_effects(first, left, counts), counts)
+    if pairs and len(pairs[0].candidates) < 2:
+        return pairs, True
     if not pairs or (enough and stability([pairs[0], none, first], seed) < STABLE):
         return [], True
     # both effects have to hold: the second one against the first alone

@@ -42,6 +42,7 @@ from statorhom.diagnose.refit_starts import (
 from statorhom.diagnose.scan import Scan
 from statorhom.diagnose.searched_starts import of_later_steps
 from statorhom.diagnose.side_by_side import side_by_side
+from statorhom.diagnose.turned import at_fitting_angle
 from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
 
@@ -187,7 +188,9 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: floa
     elif best is not None and costs_little and not far and best.objective > known:
         # beside a poor model the strongest effects are sought all over the prior in any case
         others = [] if _holds(starts[0]) else _elsewhere(starts[0])
-    return at_fitting_height(min([best, *others], key=_objective), worth) if best is not None else None
+    if best is None:
+        return None
+    return at_fitting_height(at_fitting_angle(min([best, *others], key=_objective), worth), worth)
 
 
 def _will_do(found: Refit, known: float, *, far: bool) -> bool:
