@@ -56,7 +56,9 @@ def test_modes_between_the_samples_are_nearly_those_of_all_coordinates(
 def test_few_vectors_are_fewer_than_the_bases_have(whole: JointBasis, few: JointBasis) -> None:
     for group, own in zip(few.few, whole.groups, strict=True):
         cosine, sine = (f.vectors for f in group.families)
-        assert cosine.shape[0] == len(own.waves.cosine) and sine.shape[0] == len(own.waves.sine)
+        assert cosine.shape[0] == len(own.contact.waves.cosine) and sine.shape[0] == len(
+            own.contact.waves.sine
+        )
         assert cosine.shape[1] < cosine.shape[0] and sine.shape[1] < sine.shape[0]
 
 

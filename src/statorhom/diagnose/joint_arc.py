@@ -10,13 +10,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.linalg import block_diag, eigh
+from scipy.linalg import eigh
 
+from statorhom.diagnose.joint_contact import WavesContact
 from statorhom.diagnose.ring_basis import RingBasis, RingModes
 from statorhom.errors import SolverError
 from statorhom.model.affine import Materials
 from statorhom.model.broken.cells import Sectors
-from statorhom.model.broken.grams import GramCache, project
 from statorhom.model.broken.pieces import Pieces
 from statorhom.model.broken.waves import Waves
 from statorhom.model.stator_mode import StatorMode
@@ -115,19 +115,21 @@ class ArcGroup:
     ----------
     numbers : of the problems.
     cosine, sine : those of them with cosine and with sine shapes.
-    waves : their bases.
-    pieces : of the contact, normal and tangential.
+    contact : between their bases.
     highest_hz : end of the band.
     """
 
     numbers: tuple[int, ...]
     cosine: tuple[int, ...]
     sine: tuple[int, ...]
-    waves: Waves
-    pieces: tuple[Pieces, Pieces]
+    contact: WavesContact
     highest_hz: float
-    _grams: GramCache = field(default_factory=GramCache, repr=False)
     _last: dict[str, tuple[RingModes, Joint, Weakened]] = field(default_factory=dict, repr=False)
+
+    @property
+    def slots(self) -> int:
+        """N."""
+        return self.contact.waves.slots
 
     def weakened(self, even: RingModes, joint: Joint) -> Weakened:
         """Modes with a weaker arc around θ = 0; the last ones are kept.
@@ -144,25 +146,10 @@ class ArcGroup:
         return known[2]
 
     def _solved(self, even: RingModes, joint: Joint) -> Weakened:
-        change = arc_change(joint, self.waves.slots)
-        normal, tangential = (self.contact(number, change) for number in range(2))
-        blocks = [joint.normal * n + joint.tangential * t for n, t in zip(normal, tangential, strict=True)]
+        blocks = self.contact.change(joint, arc_change(joint, self.slots))
         top = REACH * (2 * np.pi * self.highest_hz) ** 2
         families = zip((self.cosine, self.sine), blocks, strict=True)
         return Weakened(tuple(_family(even, numbers, block, top) for numbers, block in families))
-
-    def contact(self, number: int, share: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Pieces of unit stiffness between cosine and between sine coordinates.
-
-        Parameters
-        ----------
-        number : of the pieces.
-        share : (2 N,) of them that counts in every half pitch.
-        """
-        pieces = self.pieces[number]
-        weights = np.repeat(share[None, :], len(pieces), axis=0)
-        whole, count = project(self._grams, pieces, weights, self.waves, self.waves), len(self.waves.cosine)
-        return whole[:count, :count], whole[count:, count:]
 
 
 def arc_change(joint: Joint, slots: int) -> np.ndarray:
@@ -178,8 +165,8 @@ def arc_change(joint: Joint, slots: int) -> np.ndarray:
 
 
 def _family(even: RingModes, numbers: tuple[int, ...], change: np.ndarray, top: float) -> Family:
-    vectors = block_diag(*[even.vectors[n] for n in numbers])
-    K = vectors.T @ change @ vectors + np.diag(np.concatenate([even.values[n] for n in numbers]))
+    vectors = [even.vectors[n] for n in numbers]
+    K = _between(vectors, change) + np.diag(np.concatenate([even.values[n] for n in numbers]))
     try:
         values, x = eigh((K + K.T) / 2, subset_by_value=(-np.inf, top))
     except np.linalg.LinAlgError:
@@ -189,6 +176,13 @@ def _family(even: RingModes, numbers: tuple[int, ...], change: np.ndarray, top: 
         starts[n] = first
         first += len(even.values[n])
     return Family(even, starts, values, x)
+
+
+def _between(vectors: Sequence[np.ndarray], matrix: np.ndarray) -> np.ndarray:
+    """A matrix between the vectors (k, j) of all problems, one after the other: each knows its own rows alone."""
+    ends = np.cumsum([len(v) for v in vectors])[:-1]
+    rows = np.vstack([v.T @ part for v, part in zip(vectors, np.split(matrix, ends), strict=True)])
+    return np.hstack([part @ v for v, part in zip(vectors, np.split(rows, ends, axis=1), strict=True)])
 
 
 def arc_groups(ring: RingBasis, pieces: tuple[Pieces, Pieces]) -> tuple[ArcGroup, ...]:
@@ -210,5 +204,6 @@ def arc_groups(ring: RingBasis, pieces: tuple[Pieces, Pieces]) -> tuple[ArcGroup
         )
         cosine = tuple(n for n in numbers if ring.problems[n].space.parity != "odd")
         sine = tuple(n for n in numbers if ring.problems[n].space.parity != "even")
-        found.append(ArcGroup(tuple(numbers), cosine, sine, waves, pieces, ring.highest_hz))
+        contact = WavesContact(waves, pieces)
+        found.append(ArcGroup(tuple(numbers), cosine, sine, contact, ring.highest_hz))
     return tuple(found)

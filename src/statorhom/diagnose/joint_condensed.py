@@ -169,14 +169,9 @@ def condensed(
     for number, numbers in enumerate((group.cosine, group.sine)):
         own.append({n: problems[n] for n in numbers})
         vectors.append(_vectors(own[-1], number, samples, top))
-    slots = group.waves.slots
-    halves: list[list[list[np.ndarray]]] = [[[], []] for _ in vectors]
-    for half in np.eye(2 * slots):
-        for piece in range(2):
-            for family, V, contact in zip(halves, vectors, group.contact(piece, half), strict=True):
-                family[piece].append((V.T @ contact @ V).ravel())
-    families = zip(own, vectors, halves, strict=True)
-    return CondensedGroup(slots, tuple(CondensedFamily(p, V, np.array(h)) for p, V, h in families))
+    pieces = [group.contact.halves(piece, vectors) for piece in range(2)]
+    families = zip(own, vectors, *pieces, strict=True)
+    return CondensedGroup(group.slots, tuple(CondensedFamily(p, V, np.array(h)) for p, V, *h in families))
 
 
 def _vectors(
