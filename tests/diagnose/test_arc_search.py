@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from types import SimpleNamespace
 from typing import Any
 
@@ -10,8 +11,10 @@ import pytest
 
 from statorhom.diagnose import arc_search as module
 from statorhom.diagnose import valleys as valleys_of
-from statorhom.diagnose.arc_search import FOLLOWED, LEADING, MODELS, RANGES, TRIALS, arc_beside_any_winding
+from statorhom.diagnose.arc_search import FOLLOWED, MODELS, RANGES, TRIALS, arc_beside_any_winding
+from statorhom.diagnose.explanations import NARROWING
 from statorhom.diagnose.refit_starts import Start
+from statorhom.diagnose.valleys import FAR_BEHIND
 from statorhom.errors import SolverError
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.effects.interface_debond import ARC, LOSS, RATIO
@@ -29,8 +32,11 @@ class Hypothesis:
     candidates = (ARCS,)
     shared: tuple[object, ...] = ()
 
-    def __init__(self, name: str = "start") -> None:
-        self.name = name
+    def __init__(self, name: str = "start", discrepancy: float = 0.0) -> None:
+        self.name, self.discrepancy = name, discrepancy
+
+    def within(self, changes: dict[str, Any]) -> Hypothesis:
+        return Hypothesis(self.name, changes.get("discrepancy", self.discrepancy))
 
     def __len__(self) -> int:
         return 3 + len(ARCS.parameters)
@@ -47,13 +53,13 @@ class Search:
     """Every point is its own optimum; the objective is the distance from one winding and arc."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.followed: list[np.ndarray] = []
-        self.turned: list[np.ndarray] = []
+        self.followed: dict[float, list[np.ndarray]] = {}  # by the width of the valleys
         self.judged: list[np.ndarray] = []
-        monkeypatch.setattr(module, "replace", lambda h, **_: h)
+        monkeypatch.setattr(module, "replace", lambda h, **changes: h.within(changes))
         monkeypatch.setattr(module, "in_few_vectors", lambda *_: Hypothesis("few"))
         monkeypatch.setattr(module, "by_degrees", self.by_degrees)
         monkeypatch.setattr(module, "refitted", self.refitted)
+        monkeypatch.setattr(module, "narrowed", self.narrowed)
         monkeypatch.setattr(module, "in_its_own_model", lambda *_, **__: Hypothesis("own"))
         monkeypatch.setattr(valleys_of, "refit_objective", self.objective)
 
@@ -65,13 +71,18 @@ class Search:
         return float(away + turned + np.sum((z[list(WINDING)] - [0.5, -1.0]) ** 2))
 
     def by_degrees(self, hypothesis: Hypothesis, z: np.ndarray) -> Any:
-        (self.judged if hypothesis.name == "own" else self.followed).append(z)
-        return SimpleNamespace(hypothesis=hypothesis, z=z, objective=self.objective(hypothesis, z))
+        assert hypothesis.name == "own"
+        self.judged.append(z)
+        return self.refitted(hypothesis, z)
 
     def refitted(self, hypothesis: Hypothesis, z: np.ndarray) -> Any:
         if hypothesis.name != "own":
-            self.turned.append(z)
+            self.followed.setdefault(hypothesis.discrepancy, []).append(z)
         return SimpleNamespace(hypothesis=hypothesis, z=z, objective=self.objective(hypothesis, z))
+
+    def narrowed(self, rough: Any, steps: Sequence[float]) -> Any:
+        assert tuple(steps) == NARROWING[1:]
+        return self.refitted(Hypothesis("few", steps[-1]), rough.z)
 
 
 @pytest.fixture
@@ -85,14 +96,16 @@ def start() -> Start:
 
 
 def test_the_best_winding_and_arc_of_all_that_are_tried_is_found(search: Search) -> None:
-    z = arc_beside_any_winding(start(), WINDING)
+    z = arc_beside_any_winding(start(), WINDING, 100.0)
     assert z is not None
     found = effect(z)
     # the stack stays where it was; the arc is turned to its best place
     assert z[0] == 0.4
     assert found["angle_rad"] == pytest.approx(PLACE, abs=np.pi / module.PLACES)
     assert search.objective(Hypothesis(), z) < 0.5
-    assert len(search.followed) == FOLLOWED and len(search.turned) == LEADING
+    # fewer and fewer are followed as the valleys narrow, the last ones once more from the best places of their arcs
+    counts = [len(search.followed[discrepancy]) for discrepancy in (*NARROWING, 0.0)]
+    assert counts == [FOLLOWED[0], FOLLOWED[1], 2 * FOLLOWED[2]]
     # once in the model of what few vectors lead to, once in that of what this one does
     assert len(search.judged) in (2, 2 * MODELS)
 
@@ -109,7 +122,7 @@ def test_points_lie_all_over_windings_and_arcs() -> None:
 
 @pytest.mark.usefixtures("search")
 def test_the_same_points_give_the_same_answer() -> None:
-    first, second = (arc_beside_any_winding(start(), WINDING) for _ in range(2))
+    first, second = (arc_beside_any_winding(start(), WINDING, 100.0) for _ in range(2))
     assert first is not None and np.array_equal(first, second)  # type: ignore[arg-type]
 
 
@@ -139,5 +152,10 @@ def test_of_both_ways_into_a_model_of_its_own_the_better_one_counts(
 
 @pytest.mark.usefixtures("search")
 def test_where_no_winding_can_be_followed_nothing_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "by_degrees", lambda *_: None)
-    assert arc_beside_any_winding(start(), WINDING) is None
+    monkeypatch.setattr(module, "refitted", lambda *_: None)
+    assert arc_beside_any_winding(start(), WINDING, 100.0) is None
+
+
+def test_an_arc_that_explains_no_more_than_is_explained_without_gets_no_model(search: Search) -> None:
+    assert arc_beside_any_winding(start(), WINDING, -FAR_BEHIND) is None
+    assert search.judged == []

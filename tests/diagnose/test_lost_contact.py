@@ -56,13 +56,15 @@ class Search:
         log_evidence: float,
         refit: Any = None,
         adequacy: float = 0.0,
+        of_all: float = 0.0,
         candidates: Sequence[Candidate] = (LUMP,),
     ) -> Any:
         return SimpleNamespace(
             log_evidence=log_evidence,
-            refit=refit,
+            refit=refit or SimpleNamespace(objective=-log_evidence),
             adequacy=adequacy,
             adequacy_but_one=adequacy,
+            adequacy_of_all=of_all,
             candidates=candidates,
         )
 
@@ -75,7 +77,8 @@ class Search:
             self.trained.append(z)
         return hypothesis
 
-    def search(self, start: Start, winding: Sequence[int]) -> np.ndarray:
+    def search(self, start: Start, winding: Sequence[int], worth: float) -> np.ndarray:
+        self.worth = worth
         self.begun.append((start.z, winding))
         return FOUND
 
@@ -89,6 +92,7 @@ def test_the_search_begins_beside_the_winding_that_is_usual(monkeypatch: pytest.
     assert np.array_equal(found.refit.z, FOUND)
     # the stack stays as the declared model has it
     assert [z.tolist() for z in search.trained] == [[0.4, 0.0, 0.0, 0.0]]
+    assert search.worth == 200.0
     ((z, winding),) = search.begun
     assert z.tolist() == [0.4, *np.zeros(7)] and list(winding) == [1, 2, 3]
 
@@ -115,13 +119,12 @@ def test_nothing_is_sought_where_something_explains_the_misfit(monkeypatch: pyte
     assert not search.begun
 
 
-@pytest.mark.parametrize(("objective", "sought"), [(55.0, True), (35.0, False)])
+@pytest.mark.parametrize(("of_all", "sought"), [(0.05, True), (0.5, False)])
 def test_an_arc_that_leads_has_to_leave_no_more_than_noise_in_losses_too(
-    monkeypatch: pytest.MonkeyPatch, objective: float, sought: bool
+    monkeypatch: pytest.MonkeyPatch, of_all: float, sought: bool
 ) -> None:
     search = Search(monkeypatch, (90.0, 40.0, 32.0))
-    refit = SimpleNamespace(objective=objective, jacobian=np.zeros((36, 8)))
-    arc = search.explanation(-objective, refit, adequacy=0.5, candidates=(ARCS,))
+    arc = search.explanation(-55.0, adequacy=0.5, of_all=of_all, candidates=(ARCS,))
     found = with_lost_contact(search.base, [arc], [ARCS], {})
     assert bool(search.begun) == sought
     assert [e.refit.objective for e in found] == ([32.0] if sought else [])

@@ -16,7 +16,7 @@ from typing import TypeVar
 import numpy as np
 from scipy.stats import qmc
 
-from statorhom.diagnose.explanations import COARSE, by_degrees, refitted
+from statorhom.diagnose.explanations import COARSE, NARROWING, by_degrees, narrowed, refitted
 from statorhom.diagnose.few_vectors import in_few_vectors
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.refit import Refit
@@ -30,8 +30,8 @@ TRAINED = ((np.deg2rad(60.0), 1e-4), (np.deg2rad(140.0), 1e-4))  # widths and ra
 RANGES = {"arc_deg": (35.0, 220.0), "contact_ratio": (2e-5, 3e-3)}  # that are tried
 ANGLE = "angle_rad"
 SAMPLES = 48  # windings and arcs whose modes span the few vectors
-TRIALS, FOLLOWED = 1500, 24  # points, and those that are followed through valleys that narrow by degrees
-LEADING = 6  # whose arcs are turned to their best place
+TRIALS = 1500  # points
+FOLLOWED = 24, 12, 6  # that are followed, fewer as the valleys narrow by degrees
 MODELS = 2  # that are compared in models of their own
 PLACES = 24  # angles where a narrow valley begins
 SEED = 0
@@ -39,19 +39,22 @@ SEED = 0
 _T = TypeVar("_T")
 
 
-def arc_beside_any_winding(start: Start, winding: Sequence[int]) -> np.ndarray | None:
+def arc_beside_any_winding(start: Start, winding: Sequence[int], worth: float) -> np.ndarray | None:
     """Coordinates of the best arc; None where no winding will do.
 
     Parameters
     ----------
     start : an arc, in bases that know arcs like `TRAINED`.
     winding : places of the constants that are sought with it.
+    worth : objective that is reached without; few vectors may miss the arc's by some.
     """
     few = in_few_vectors(start.hypothesis, _points(start, winding, SAMPLES, SEED + 1))
     rough = replace(few, discrepancy=COARSE, trained=False)
-    nearest = apart(nearest_first(rough, _points(start, winding, TRIALS, SEED)), FOLLOWED)
-    found = _optima(partial(by_degrees, few), nearest, few)
-    found = _optima(_turned, found[:LEADING], few)
+    nearest = apart(nearest_first(rough, _points(start, winding, TRIALS, SEED)), FOLLOWED[0])
+    found = _optima(partial(_in_valleys, few, NARROWING[0]), nearest, few)
+    found = _optima(_narrower, found[: FOLLOWED[1]], few)
+    found = _optima(_turned, found[: FOLLOWED[2]], few)
+    found = [r for r in found if r.objective < worth + FAR_BEHIND]
     return _best(start.hypothesis, found) if found else None
 
 
@@ -86,11 +89,23 @@ def _different(found: Sequence[Refit]) -> list[Refit]:
     return different(found, lambda r: np.delete(r.z, _place(r.hypothesis, ANGLE)))
 
 
+def _in_valleys(few: Hypothesis, discrepancy: float, z: np.ndarray) -> Refit | None:
+    """The optimum next to a point in valleys of some width."""
+    return refitted(replace(few, held=None, discrepancy=discrepancy), z)
+
+
+def _narrower(found: Refit) -> Refit | None:
+    """The optimum next to one in wider valleys: in these most that will not do in the narrowest ones stay behind."""
+    return narrowed(found, NARROWING[1:])
+
+
 def _turned(found: Refit) -> Refit | None:
-    """From the best place of its arc: wide valleys see none."""
-    own = replace(found.hypothesis, held=None)
-    begun = nearest_first(own, [found.z, *_all_around(own, found.z)])
-    return refitted(own, begun[0]) if begun else None
+    """In the narrowest valleys, and from the best place of its arc: wide ones see none."""
+    own = _in_valleys(found.hypothesis, 0.0, found.z)
+    if own is None:
+        return None
+    begun = nearest_first(replace(own.hypothesis, held=None), [own.z, *_all_around(own.hypothesis, own.z)])
+    return refitted(replace(own.hypothesis, held=None), begun[0]) if begun else None
 
 
 def _all_around(hypothesis: Hypothesis, z: np.ndarray) -> list[np.ndarray]:

@@ -185,8 +185,8 @@ def _between(vectors: Sequence[np.ndarray], matrix: np.ndarray) -> np.ndarray:
     return np.hstack([part @ v for v, part in zip(vectors, np.split(rows, ends, axis=1), strict=True)])
 
 
-def arc_groups(ring: RingBasis, pieces: tuple[Pieces, Pieces]) -> tuple[ArcGroup, ...]:
-    """The problems of each axial parity."""
+def arc_groups(ring: RingBasis, pieces: tuple[Pieces, ...]) -> tuple[ArcGroup, ...]:
+    """The problems of each axial parity, and the contact between them (`WavesContact`)."""
     found = []
     for axial in dict.fromkeys(p.space.axial for p in ring.problems):
         numbers = [n for n, p in enumerate(ring.problems) if p.space.axial == axial]

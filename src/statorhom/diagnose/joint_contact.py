@@ -28,11 +28,12 @@ class WavesContact:
     Parameters
     ----------
     waves : one harmonic after the other.
-    pieces : of the contact, normal and tangential, per unit stiffness.
+    pieces : of the contact per unit stiffness, normal and tangential; or of both in their ratio, per unit of the
+        normal one.
     """
 
     waves: Waves
-    pieces: tuple[Pieces, Pieces]
+    pieces: tuple[Pieces, ...]
     _grams: GramCache = field(default_factory=GramCache, repr=False)
     _bond: dict[tuple[float, float], Gram] = field(default_factory=dict, repr=False)
 
@@ -75,11 +76,11 @@ class WavesContact:
         """Products of the whole contact of a half pitch; the last one is kept."""
         stiffness = joint.normal, joint.tangential
         if stiffness not in self._bond:
-            normal, tangential = (self._gram(p) for p in self.pieces)
+            parts = [(k, self._gram(p)) for k, p in zip(stiffness, self.pieces, strict=False)]
             self._bond.clear()
             self._bond[stiffness] = Gram(
-                joint.normal * normal.hermitian + joint.tangential * tangential.hermitian,
-                joint.normal * normal.transposed + joint.tangential * tangential.transposed,
+                np.asarray(sum(k * gram.hermitian for k, gram in parts)),
+                np.asarray(sum(k * gram.transposed for k, gram in parts)),
             )
         return self._bond[stiffness]
 

@@ -48,7 +48,7 @@ def with_lost_contact(
     best = found[0] if found else nothing(base)
     if _is_settled(best, arcs) or nothing(base).adequacy > ADEQUATE:
         return []
-    own = (explained(r, counts) for c in arcs if (r := _sought(base, c)) is not None)
+    own = (explained(r, counts) for c in arcs if (r := _sought(base, c, best.refit.objective)) is not None)
     return [e for e in own if e.log_evidence > best.log_evidence]
 
 
@@ -63,13 +63,19 @@ def _is_settled(best: Explanation, arcs: Sequence[Candidate]) -> bool:
     return best.adequacy_but_one > ADEQUATE
 
 
-def _sought(base: Refit, candidate: Candidate) -> Refit | None:
-    """The best optimum of an arc beside any winding, in a model of its own; None where no winding will do."""
+def _sought(base: Refit, candidate: Candidate, worth: float) -> Refit | None:
+    """The best optimum of an arc beside any winding, in a model of its own; None where no winding will do.
+
+    Parameters
+    ----------
+    base, candidate : the declared model, and the arc.
+    worth : objective that is reached without an arc.
+    """
     typical = _with_typical_winding(base, candidate)
     if typical is None:
         return None
     start = start_of(typical, candidate, scan_starts(typical.hypothesis.study, candidate)[0])
-    z = arc_beside_any_winding(start, _winding(base, candidate))
+    z = arc_beside_any_winding(start, _winding(base, candidate), worth)
     try:
         there = None if z is None else evaluated(start.hypothesis, z)
     except (StatorhomError, KeyError):
