@@ -13,6 +13,7 @@ from statorhom.diagnose import refit_starts
 from statorhom.diagnose.refit_starts import _as_large, _begun
 from statorhom.diagnose.scan import Signature
 from statorhom.diagnose.searched_starts import SUPPORTS, _with_few_supports
+from statorhom.physics.action import Action, Joint
 from statorhom.physics.parameter import EffectParameter, angle, height
 
 BASE: Any = SimpleNamespace(hypothesis=SimpleNamespace(candidates=()), z=None)
@@ -88,6 +89,22 @@ def test_an_arc_of_lost_contact_is_not_made_wider(
     monkeypatch.setattr(refit_starts, "price", lambda _: getattr(refit_starts, price))
     begun: Any = _begun(BASE, signature(arc, [width.internal(40.0), 0.0], 4.0, 20.0**2))
     assert width.value(begun[0]) == pytest.approx(width_deg)
+
+
+@pytest.mark.parametrize(
+    ("action", "expected"),
+    [
+        (Action(), refit_starts.CHEAP),
+        (Action(joint=Joint(("frame",), 3e12, 2e12)), refit_starts.CHEAP),
+        (Action(changes=lambda *_: ()), refit_starts.MIDDLING),
+        (Action(joint=Joint(("winding",), 1e14, 1e14, (0.0, 1.0), 1e-3)), refit_starts.DEAR),
+    ],
+    ids=["even", "contact", "local", "arc"],
+)
+def test_a_contact_costs_much_where_it_is_lost_over_an_arc(action: Action, expected: int) -> None:
+    """Where it is the same all around, it is sought all over the prior like everything that keeps the symmetry."""
+    hypothesis: Any = SimpleNamespace(candidates=("effect",), actions=lambda _: (action,))
+    assert refit_starts.price((1.0, [refit_starts.Start(hypothesis, np.zeros(1))])) == expected
 
 
 def test_rivals_of_the_favourite_are_sought_all_over_the_prior(monkeypatch: pytest.MonkeyPatch) -> None:

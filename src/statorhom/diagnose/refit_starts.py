@@ -127,11 +127,11 @@ def _of_different_effects(trials: Sequence[Trial], first: Signature) -> list[Tri
 
 
 def price(trial: Trial) -> int:
-    """What an evaluation costs: least where the symmetry is kept, most with a contact."""
+    """What an evaluation costs: least where the symmetry is kept, most with a contact that is lost over an arc."""
     _, (start, *_) = trial
     # what the candidate is added to costs the same with each of them
     action = start.hypothesis.actions(start.z)[len(start.hypothesis.candidates) - 1]
-    if action.joint is not None:
+    if action.joint is not None and action.joint.arc is not None:
         return DEAR
     return CHEAP if action.changes is None else MIDDLING
 
