@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose import sharper as module
-from statorhom.diagnose.sharper import AROUND, _arcs, at_its_own_materials
+from statorhom.diagnose.explanations import Explanation
+from statorhom.diagnose.sharper import AROUND, ITSELF, _arcs, at_its_own_materials, sharpened
 from statorhom.physics.action import Action, Joint
 
 WOUND = ("winding", "overhang")
@@ -58,3 +59,22 @@ def test_what_is_reported_is_solved_at_its_own_materials(
 
 def test_an_arc_can_be_solved_as_it_is_alone() -> None:
     assert _arcs([joint(1.0, 1e-3)], (1.0,)) == ((1.0, 1e-3),)
+
+
+@pytest.mark.parametrize(("leads", "around"), [(True, AROUND), (False, ITSELF)])
+def test_a_rival_s_arc_is_solved_as_it_is_alone(
+    monkeypatch: pytest.MonkeyPatch, leads: bool, around: tuple[float, ...]
+) -> None:
+    """Each arc that is solved takes as long as all else."""
+    asked: list[tuple[float, ...]] = []
+    refit: Any = SimpleNamespace(hypothesis=None, z=None, objective=20.0)
+
+    def in_its_own_model(*_: Any, around: tuple[float, ...]) -> None:
+        asked.append(around)
+
+    monkeypatch.setattr(module, "in_its_own_model", in_its_own_model)
+    monkeypatch.setattr(module, "refitted", lambda *_: refit)
+    monkeypatch.setattr(module, "_keeps_symmetry", lambda _: True)
+    monkeypatch.setattr(Explanation, "adequacy_but_one", 0.5)
+    assert sharpened(Explanation((), refit, -30.0), leads=leads).settled
+    assert asked == [around]

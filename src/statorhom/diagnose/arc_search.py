@@ -21,7 +21,7 @@ from statorhom.diagnose.few_vectors import in_few_vectors
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.refit_starts import Start
-from statorhom.diagnose.sharper import in_its_own_model
+from statorhom.diagnose.sharper import ITSELF, in_its_own_model
 from statorhom.diagnose.side_by_side import side_by_side
 from statorhom.diagnose.valleys import FAR_BEHIND, apart, different, nearest_first, over_the_prior
 from statorhom.errors import StatorhomError
@@ -142,7 +142,7 @@ def _in_model_of(
 ) -> Refit | None:
     """The best optimum in the model of a point; None where no body has its constants."""
     try:
-        own = in_its_own_model(hypothesis, z, mesh_known=True, around=(1.0,))
+        own = in_its_own_model(hypothesis, z, mesh_known=True, around=ITSELF)
     except (StatorhomError, KeyError):
         return None
     found = [r for way in ways if (r := way(own, z)) is not None]

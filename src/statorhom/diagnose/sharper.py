@@ -40,6 +40,7 @@ WORSE = 10.0  # of the objective, by which a model of its own is worse than the 
 VAGUE = 1.0  # prior standard deviation of a logarithm from which on a constant may be far on either side
 ASIDE = 1.5  # prior standard deviations to either side where such a constant is tried
 AROUND = 1 / 1.1, 1.1  # times its own arc, at which a contact that is lost over one is solved
+ITSELF = (1.0,)  # the same of a rival: each arc that is solved takes as long as all else
 BEHIND = 150.0  # log evidence by which others are too far behind for that
 
 
@@ -53,19 +54,20 @@ def sharpened(explanation: Explanation, *, leads: bool = True) -> Explanation:
     explanation : a refit.
     leads : whether constants are tried on their other sides too where that is dear.
     """
-    found = _sharpened(explanation)
+    around = AROUND if leads else ITSELF
+    found = _sharpened(explanation, around)
     for _ in range(ROUNDS - 1):
         gained = explanation.refit.objective - found.refit.objective
         if found.adequacy_but_one > ADEQUATE or gained < SETTLED:
             break
-        explanation, found = found, _sharpened(found)
+        explanation, found = found, _sharpened(found, around)
     found = replace(found, settled=True)
     cheap = _keeps_symmetry(found.refit)
     # where every start needs a model of its own, what is good enough for a name is good enough
     if found.adequacy_but_one > (WELL if cheap else ADEQUATE) or not (leads or cheap):
         return found
     deeper = at_fitting_height(_on_other_sides(found.refit))
-    return found if deeper is found.refit else _sharpened(replace(found, refit=deeper))
+    return found if deeper is found.refit else _sharpened(replace(found, refit=deeper), around)
 
 
 def at_its_own_materials(explanation: Explanation) -> Explanation:
@@ -97,9 +99,9 @@ def _has_moved(r: Refit) -> bool:
     return False
 
 
-def _sharpened(explanation: Explanation) -> Explanation:
+def _sharpened(explanation: Explanation, around: tuple[float, ...] = AROUND) -> Explanation:
     r = explanation.refit
-    moved = in_its_own_model(r.hypothesis, r.z)
+    moved = in_its_own_model(r.hypothesis, r.z, around=around)
     again = refitted(moved, r.z)
     if again is None or again.objective > r.objective + WORSE:
         # other mesh factors may have put the constants onto a slope of another valley
