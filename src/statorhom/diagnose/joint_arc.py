@@ -6,7 +6,7 @@ shapes apart. All faces of a half pitch weaken alike.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -185,9 +185,11 @@ def _between(vectors: Sequence[np.ndarray], matrix: np.ndarray) -> np.ndarray:
     return np.hstack([part @ v for v, part in zip(vectors, np.split(rows, ends, axis=1), strict=True)])
 
 
-def arc_groups(ring: RingBasis, pieces: tuple[Pieces, ...]) -> tuple[ArcGroup, ...]:
-    """The problems of each axial parity, and the contact between them (`WavesContact`)."""
-    found = []
+def arc_groups(ring: RingBasis, pieces: tuple[Pieces, ...]) -> Iterator[ArcGroup]:
+    """The problems of each axial parity, and the contact between them (`WavesContact`).
+
+    One after the other: what a group keeps takes a gigabyte where bases are large.
+    """
     for axial in dict.fromkeys(p.space.axial for p in ring.problems):
         numbers = [n for n, p in enumerate(ring.problems) if p.space.axial == axial]
         own = [ring.problems[n] for n in numbers]
@@ -205,5 +207,4 @@ def arc_groups(ring: RingBasis, pieces: tuple[Pieces, ...]) -> tuple[ArcGroup, .
         cosine = tuple(n for n in numbers if ring.problems[n].space.parity != "odd")
         sine = tuple(n for n in numbers if ring.problems[n].space.parity != "even")
         contact = WavesContact(waves, pieces)
-        found.append(ArcGroup(tuple(numbers), cosine, sine, contact, ring.highest_hz))
-    return tuple(found)
+        yield ArcGroup(tuple(numbers), cosine, sine, contact, ring.highest_hz)

@@ -57,7 +57,7 @@ class JointBasis:
     @cached_property
     def groups(self) -> tuple[ArcGroup, ...]:
         """What an arc couples."""
-        return arc_groups(self.ring, self.pieces)
+        return tuple(arc_groups(self.ring, self.pieces))
 
     def solve(self, materials: Materials, joint: Joint) -> dict[ModeKey, JoinedMode]:
         """Named modes of the band.

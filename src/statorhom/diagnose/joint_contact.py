@@ -8,7 +8,8 @@ is weighed by the two harmonics alone.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import reduce
 
 import numpy as np
 import scipy.sparse as sp
@@ -34,7 +35,6 @@ class WavesContact:
 
     waves: Waves
     pieces: tuple[Pieces, ...]
-    _grams: GramCache = field(default_factory=GramCache, repr=False)
     _bond: dict[tuple[float, float], Gram] = field(default_factory=dict, repr=False)
 
     def change(self, joint: Joint, share: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -73,19 +73,17 @@ class WavesContact:
         return found
 
     def _bonded(self, joint: Joint) -> Gram:
-        """Products of the whole contact of a half pitch; the last one is kept."""
+        """Products of the whole contact of a half pitch; the last one is kept, and nothing of what it is made of."""
         stiffness = joint.normal, joint.tangential
         if stiffness not in self._bond:
-            parts = [(k, self._gram(p)) for k, p in zip(stiffness, self.pieces, strict=False)]
             self._bond.clear()
-            self._bond[stiffness] = Gram(
-                np.asarray(sum(k * gram.hermitian for k, gram in parts)),
-                np.asarray(sum(k * gram.transposed for k, gram in parts)),
-            )
+            parts = (self._gram(k, p) for k, p in zip(stiffness, self.pieces, strict=False))
+            self._bond[stiffness] = reduce(_sum, parts)
         return self._bond[stiffness]
 
-    def _gram(self, pieces: Pieces) -> Gram:
-        return self._grams.grams(pieces, np.arange(len(pieces)), [self.waves], self.waves)[0]
+    def _gram(self, stiffness: float, pieces: Pieces) -> Gram:
+        scaled = replace(pieces, matrices=stiffness * pieces.matrices)
+        return GramCache().grams(scaled, np.arange(len(pieces)), [self.waves], self.waves)[0]
 
     def _weighed(self, product: np.ndarray, even: FloatArray, odd: FloatArray, sign: int) -> FloatArray:
         """Real part of a product, weighed by the sums or the differences of the harmonics."""
@@ -102,3 +100,7 @@ class WavesContact:
         order = self.waves.order
         begins = np.flatnonzero(np.r_[True, order[1:] != order[:-1]])
         return order[begins].astype(int), np.diff(np.r_[begins, len(order)])
+
+
+def _sum(one: Gram, other: Gram) -> Gram:
+    return Gram(one.hermitian + other.hermitian, one.transposed + other.transposed)

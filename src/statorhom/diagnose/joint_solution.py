@@ -33,6 +33,7 @@ SOLUTIONS, ANSWERS = (
     25,
 )  # vectors of the last two solutions, and of answers to them, that one problem keeps
 PARTS = 30  # that are kept of all solutions in the end
+CHUNK = 24  # modes whose motion in all half pitches is held at once
 
 # contact of unit stiffness of the half pitch, normal and tangential (m²)
 Unit = tuple[sp.csr_array, sp.csr_array]
@@ -193,6 +194,16 @@ class Arcs:
 
     def _lost(self, joint: Joint, motions: Mapping[int, np.ndarray], sine: bool) -> dict[int, np.ndarray]:
         """Forces (m, t) of the change of the contact by the modes' coordinates (m, t), per problem."""
+        count = next(iter(motions.values())).shape[1]
+        parts = [
+            self._lost_of_some(joint, {n: y[:, first : first + CHUNK] for n, y in motions.items()}, sine)
+            for first in range(0, max(count, 1), CHUNK)
+        ]
+        return {n: np.hstack([part[n] for part in parts]) for n in motions}
+
+    def _lost_of_some(
+        self, joint: Joint, motions: Mapping[int, np.ndarray], sine: bool
+    ) -> dict[int, np.ndarray]:
         slots = self.ring.model.mesh.slots
         spaces = {n: self.problems[n].space for n in motions}
         # the motion is Re(û z) in a pitch and Re(conj(û) z) in its mirror image, of the sines Im
