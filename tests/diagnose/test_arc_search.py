@@ -24,6 +24,7 @@ ARCS = Candidate("interface_debond", "wound", (ARC, RATIO, LOSS, angle()), "wind
 TRUE = {"arc_deg": 90.0, "contact_ratio": 3e-4}
 PLACE = 3.0
 WINDING = (1, 2)
+PLACES = [*WINDING, 3, 4]  # with the width and the ratio of the arc
 
 
 class Hypothesis:
@@ -61,7 +62,15 @@ class Search:
         monkeypatch.setattr(module, "refitted", self.refitted)
         monkeypatch.setattr(module, "narrowed", self.narrowed)
         monkeypatch.setattr(module, "in_its_own_model", lambda *_, **__: Hypothesis("own"))
+        monkeypatch.setattr(module, "in_few_vectors_near", self.near)
+        monkeypatch.setattr(module, "refit_objective", self.objective)
         monkeypatch.setattr(valleys_of, "refit_objective", self.objective)
+
+    @staticmethod
+    def near(hypothesis: Hypothesis, _: np.ndarray, places: Sequence[int]) -> Hypothesis:
+        # the winding, and the width and the ratio of the arc
+        assert list(places) == [1, 2, 3, 4] and hypothesis.name == "own"
+        return hypothesis
 
     @staticmethod
     def objective(_: Hypothesis, z: np.ndarray) -> float:
@@ -132,7 +141,7 @@ def test_a_winding_without_a_model_of_its_own_is_judged_last(monkeypatch: pytest
         raise SolverError("no such body")
 
     monkeypatch.setattr(module, "in_its_own_model", impossible)
-    objective, z = module._judged(Hypothesis(), np.zeros(7))  # type: ignore[arg-type]
+    objective, z = module._judged(Hypothesis(), PLACES, np.zeros(7))  # type: ignore[arg-type]
     assert objective == np.inf and not z.any()
 
 
@@ -146,7 +155,7 @@ def test_of_both_ways_into_a_model_of_its_own_the_better_one_counts(
     # its arc is a third as wide in the end
     astray = np.r_[best[:3], ARCS.parameters[0].internal(20.0), best[4:]]
     monkeypatch.setattr(module, other, lambda h, _: ways[other](h, astray))
-    _, z = module._judged(Hypothesis(), best)  # type: ignore[arg-type]
+    _, z = module._judged(Hypothesis(), PLACES, best)  # type: ignore[arg-type]
     assert np.array_equal(z, best)
 
 

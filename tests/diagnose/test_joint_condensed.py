@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from small_stators import MATERIALS, stator_mesh
 
+from statorhom.diagnose.few_vectors import MORE
 from statorhom.diagnose.joint_basis import JointBasis, joint_basis
 from statorhom.materials.hooke import Hooke
 from statorhom.model.affine import Material, Materials, hooke_coefficients
@@ -78,3 +79,17 @@ def test_an_arc_s_end_within_a_half_pitch_changes_the_modes(whole: JointBasis) -
     (a, b, c) = (whole.solve(MATERIALS, arc(w, 1e-3))[2, 0, 0].log_f for w in widths)
     assert a > b > c
     assert (a - b) > 0.05 * (a - c)
+
+
+def test_near_a_point_more_vectors_are_as_good_as_all(whole: JointBasis) -> None:
+    """What an optimum is followed in (`statorhom.diagnose.few_vectors.in_few_vectors_near`)."""
+    rng = np.random.default_rng(1)
+    around = np.exp(0.15 * (2 * rng.random((24, 3)) - 1))
+    samples = [(wound(f), arc(97.0 * d, 4e-3 * q)) for f, d, q in around]
+    near = whole.condensed(samples, MORE)
+    place = (wound(1.1), arc(92.0, 4.4e-3, 0.7))
+    exact, found = whole.solve(*place), near.solve(*place)
+    assert set(found) == set(exact)
+    for key, one in exact.items():
+        assert found[key].log_f == pytest.approx(one.log_f, abs=1e-4)
+        assert abs(found[key].split - one.split) < 4e-4

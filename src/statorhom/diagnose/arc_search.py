@@ -17,9 +17,9 @@ import numpy as np
 from scipy.stats import qmc
 
 from statorhom.diagnose.explanations import COARSE, NARROWING, by_degrees, narrowed, refitted
-from statorhom.diagnose.few_vectors import in_few_vectors
+from statorhom.diagnose.few_vectors import in_few_vectors, in_few_vectors_near
 from statorhom.diagnose.hypothesis import Hypothesis
-from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.refit import Refit, refit_objective
 from statorhom.diagnose.refit_starts import Start
 from statorhom.diagnose.sharper import ITSELF, in_its_own_model
 from statorhom.diagnose.side_by_side import side_by_side
@@ -55,7 +55,7 @@ def arc_beside_any_winding(start: Start, winding: Sequence[int], worth: float) -
     found = _optima(_narrower, found[: FOLLOWED[1]], few)
     found = _optima(_turned, found[: FOLLOWED[2]], few)
     found = [r for r in found if r.objective < worth + FAR_BEHIND]
-    return _best(start.hypothesis, found) if found else None
+    return _best(start.hypothesis, winding, found) if found else None
 
 
 def _points(start: Start, winding: Sequence[int], count: int, seed: int) -> list[np.ndarray]:
@@ -115,35 +115,53 @@ def _all_around(hypothesis: Hypothesis, z: np.ndarray) -> list[np.ndarray]:
     return [np.r_[z[:place], angle.internal(float(turn)), z[place + 1 :]] for turn in turns]
 
 
-def _best(start: Hypothesis, found: Sequence[Refit]) -> np.ndarray:
+def varied(hypothesis: Hypothesis, winding: Sequence[int]) -> list[int]:
+    """Places of what is sought: a winding's constants, and the width and the ratio of the arc."""
+    return [*winding, *(_place(hypothesis, name) for name in RANGES)]
+
+
+def _best(start: Hypothesis, winding: Sequence[int], found: Sequence[Refit]) -> np.ndarray:
     """Of the last ones that are near each other, the one that leaves least in a model of its own, where that led it."""
     near = [r for r in found if r.objective < found[0].objective + FAR_BEHIND][:MODELS]
-    judged = side_by_side(partial(_judged, start), [r.z for r in near])
+    judged = side_by_side(partial(_judged, start, varied(start, winding)), [r.z for r in near])
     return min(judged, key=lambda j: j[0])[1]
 
 
-def _judged(start: Hypothesis, z: np.ndarray) -> tuple[float, np.ndarray]:
+def _judged(start: Hypothesis, places: Sequence[int], z: np.ndarray) -> tuple[float, np.ndarray]:
     """Objective and coordinates of the optimum next to some, where its materials and its arc are solved.
 
-    Few vectors are off by percents: from there either way into a model of its own may be led astray by lines of
-    another order, and only the model of what it leads to shows it. That one is not handed on: it is larger than what
-    it takes to make it again once.
+    The few vectors of the search are off by percents: from there either way into a model of its own may be led astray
+    by lines of another order, and only the model of what it leads to shows it. That one is not handed on: it is larger
+    than what it takes to make it again once.
     """
-    near = _in_model_of(start, z, (refitted, by_degrees))
+    near = _in_model_of(start, places, z)
     if near is None:
         return np.inf, z
-    again = _in_model_of(near.hypothesis, near.z, (by_degrees,))
-    best = near if again is None or again.objective > near.objective else again
-    return best.objective, best.z
+    again = _in_model_of(start, places, near[1])
+    return near if again is None or again[0] > near[0] else again
 
 
 def _in_model_of(
-    hypothesis: Hypothesis, z: np.ndarray, ways: Sequence[Callable[[Hypothesis, np.ndarray], Refit | None]]
-) -> Refit | None:
-    """The best optimum in the model of a point; None where no body has its constants."""
+    hypothesis: Hypothesis, places: Sequence[int], z: np.ndarray
+) -> tuple[float, np.ndarray] | None:
+    """Objective and coordinates of the optimum near a point in its model; None where no body has its constants."""
     try:
         own = in_its_own_model(hypothesis, z, mesh_known=True, around=ITSELF)
+        there = followed_near(own, places, z)
+        return None if there is None else (refit_objective(own, there), there)
     except (StatorhomError, KeyError):
         return None
-    found = [r for way in ways if (r := way(own, z)) is not None]
-    return min(found, key=lambda r: r.objective, default=None)
+
+
+def followed_near(own: Hypothesis, places: Sequence[int], z: np.ndarray) -> np.ndarray | None:
+    """The best optimum next to a point, straight or as valleys narrow, in the vectors that points around it span.
+
+    Parameters
+    ----------
+    own : an arc in a model of its own.
+    places : of what will move (`varied`).
+    z : the point.
+    """
+    few = in_few_vectors_near(own, z, places)
+    found = [r for way in (refitted, by_degrees) if (r := way(few, z)) is not None]
+    return min(found, key=lambda r: r.objective).z if found else None

@@ -16,7 +16,7 @@ import numpy as np
 from statorhom.diagnose.feature import SINGLE
 from statorhom.diagnose.joint_arc import ArcGroup, JoinedMode, Weakened, arc_groups
 from statorhom.diagnose.joint_born import born_modes, surface
-from statorhom.diagnose.joint_condensed import CondensedGroup, Sample, condensed
+from statorhom.diagnose.joint_condensed import MOST, CondensedGroup, Sample, condensed
 from statorhom.diagnose.joint_fields import with_local_fields
 from statorhom.diagnose.joint_training import with_arcs
 from statorhom.diagnose.ring_basis import RingBasis, RingModes, mark_of, ring_basis
@@ -107,14 +107,14 @@ class JointBasis:
             return self.few[number].weakened(even, joint, materials)
         return self.groups[number].weakened(even, joint)
 
-    def condensed(self, samples: Sequence[tuple[Materials, Joint]]) -> JointBasis:
+    def condensed(self, samples: Sequence[tuple[Materials, Joint]], most: int = MOST) -> JointBasis:
         """The same in the few vectors that the modes at some materials and arcs span; nearly right between them."""
         top = (2 * np.pi * self.ring.highest_hz) ** 2
         solved = side_by_side(self._weakened_groups, samples, self.ring.problems)
         few = []
         for group, weakened in zip(self.groups, zip(*solved, strict=True), strict=True):
             own = [Sample(materials, w) for (materials, _), w in zip(samples, weakened, strict=True)]
-            few.append(condensed(group, self.ring.problems, own, top))
+            few.append(condensed(group, self.ring.problems, own, top, most))
         return JointBasis(self.ring, self.pieces, self.springs, tuple(few))
 
     def _weakened_groups(self, sample: tuple[Materials, Joint]) -> list[Weakened]:

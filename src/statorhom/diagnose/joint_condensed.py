@@ -155,7 +155,7 @@ class CondensedGroup:
 
 
 def condensed(
-    group: ArcGroup, problems: Sequence[RingProblem], samples: Sequence[Sample], top: float
+    group: ArcGroup, problems: Sequence[RingProblem], samples: Sequence[Sample], top: float, most: int = MOST
 ) -> CondensedGroup:
     """A group in the vectors that its modes at some materials and arcs span.
 
@@ -164,18 +164,19 @@ def condensed(
     group, problems : the problems that an arc couples, of all problems.
     samples : modes of the group.
     top : λ at the band's end.
+    most : vectors of one family.
     """
     vectors, own = [], []
     for number, numbers in enumerate((group.cosine, group.sine)):
         own.append({n: problems[n] for n in numbers})
-        vectors.append(_vectors(own[-1], number, samples, top))
+        vectors.append(_vectors(own[-1], number, samples, top, most))
     pieces = [group.contact.halves(piece, vectors) for piece in range(2)]
     families = zip(own, vectors, *pieces, strict=True)
     return CondensedGroup(group.slots, tuple(CondensedFamily(p, V, np.array(h)) for p, V, *h in families))
 
 
 def _vectors(
-    problems: dict[int, RingProblem], number: int, samples: Sequence[Sample], top: float
+    problems: dict[int, RingProblem], number: int, samples: Sequence[Sample], top: float, most: int
 ) -> np.ndarray:
     """(Σk, v) directions in which most of the samples' energy lies, of unit energy in their mean."""
     found, energy = [], []
@@ -189,5 +190,5 @@ def _vectors(
         energy.append(block_diag(*[K + top * M for K, M in pairs]))
     root = np.linalg.cholesky(np.mean(energy, axis=0))
     left, sizes, _ = np.linalg.svd(root.T @ np.hstack(found), full_matrices=False)
-    most = min(MOST, int(np.count_nonzero(sizes > LEAST * sizes[0])))
-    return np.asarray(solve_triangular(root.T, left[:, :most]))
+    count = min(most, int(np.count_nonzero(sizes > LEAST * sizes[0])))
+    return np.asarray(solve_triangular(root.T, left[:, :count]))

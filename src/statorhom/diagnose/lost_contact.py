@@ -9,17 +9,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from statorhom.diagnose.arc_search import RANGES, TRAINED, arc_beside_any_winding
+import numpy as np
+
+from statorhom.diagnose.arc_search import RANGES, TRAINED, arc_beside_any_winding, followed_near, varied
 from statorhom.diagnose.constants import new_constants
 from statorhom.diagnose.explanations import (
     ADEQUATE,
     WELL,
     Explanation,
     blank,
-    by_degrees,
     explained,
     nothing,
+    refitted,
 )
+from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.refit import Refit, evaluated
 from statorhom.diagnose.refit_starts import start_of
 from statorhom.diagnose.scan import starts as scan_starts
@@ -75,25 +78,32 @@ def _sought(base: Refit, candidate: Candidate, worth: float) -> Refit | None:
     if typical is None:
         return None
     start = start_of(typical, candidate, scan_starts(typical.hypothesis.study, candidate)[0])
-    z = arc_beside_any_winding(start, _winding(base, candidate), worth)
+    winding = _winding(base, candidate)
+    z = arc_beside_any_winding(start, winding, worth)
     try:
         there = None if z is None else evaluated(start.hypothesis, z)
     except (StatorhomError, KeyError):
         return None
-    return None if there is None else _in_own_models(there)
+    return None if there is None else _in_own_models(there, varied(there.hypothesis, winding))
 
 
-def _in_own_models(found: Refit) -> Refit | None:
+def _in_own_models(found: Refit, places: Sequence[int]) -> Refit | None:
     """Refitted in a model of its own, and in further ones while that explains more and much is left to explain."""
-    best = by_degrees(in_its_own_model(found.hypothesis, found.z), found.z)
+    best = _followed(in_its_own_model(found.hypothesis, found.z), places, found.z)
     for _ in range(ROUNDS - 1):
         if best is None or explained(best, {}).adequacy > ADEQUATE:
             break
-        again = by_degrees(in_its_own_model(best.hypothesis, best.z), best.z)
+        again = _followed(in_its_own_model(best.hypothesis, best.z), places, best.z)
         if again is None or again.objective >= best.objective:
             break
         best = again
     return best
+
+
+def _followed(own: Hypothesis, places: Sequence[int], z: np.ndarray) -> Refit | None:
+    """The optimum next to a point: followed in few vectors, and the last steps in all."""
+    near = followed_near(own, places, z)
+    return None if near is None else refitted(own, near)
 
 
 def _with_typical_winding(base: Refit, candidate: Candidate) -> Refit | None:

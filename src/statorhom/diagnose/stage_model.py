@@ -145,16 +145,17 @@ class StageModel:
     def _used(self, joint: Joint) -> tuple[str, ...]:
         return tuple(r for r in joint.regions if r in self.model.mesh.regions)
 
-    def condensed(self, samples: Sequence[tuple[Materials, Joint]]) -> StageModel:
+    def condensed(self, samples: Sequence[tuple[Materials, Joint]], most: int) -> StageModel:
         """The stage with contacts that are lost over arcs in few vectors, good enough to tell windings apart.
 
         Parameters
         ----------
         samples : at least one, of all windings and arcs that matter (`JointBasis.condensed`).
+        most : vectors of one family.
         """
         joint = samples[0][1]
         memory = Memory()
-        memory.learn({self._mark(joint): self.joined(joint).condensed(samples)})
+        memory.learn({self._mark(joint): self.joined(joint).condensed(samples, most)})
         return replace(self, memory=memory)
 
     def _joined(self, joint: Joint) -> JointBasis:
