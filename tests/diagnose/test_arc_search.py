@@ -60,6 +60,7 @@ class Search:
         monkeypatch.setattr(module, "in_few_vectors", lambda *_: Hypothesis("few"))
         monkeypatch.setattr(module, "by_degrees", self.by_degrees)
         monkeypatch.setattr(module, "refitted", self.refitted)
+        monkeypatch.setattr(module, "in_valleys", self.in_valleys)
         monkeypatch.setattr(module, "narrowed", self.narrowed)
         monkeypatch.setattr(module, "in_its_own_model", lambda *_, **__: Hypothesis("own"))
         monkeypatch.setattr(module, "in_few_vectors_near", self.near)
@@ -88,6 +89,9 @@ class Search:
         if hypothesis.name != "own":
             self.followed.setdefault(hypothesis.discrepancy, []).append(z)
         return SimpleNamespace(hypothesis=hypothesis, z=z, objective=self.objective(hypothesis, z))
+
+    def in_valleys(self, hypothesis: Hypothesis, z: np.ndarray, discrepancy: float) -> Any:
+        return self.refitted(hypothesis.within({"discrepancy": discrepancy}), z)
 
     def narrowed(self, rough: Any, steps: Sequence[float]) -> Any:
         assert tuple(steps) == NARROWING[1:]
@@ -161,7 +165,7 @@ def test_of_both_ways_into_a_model_of_its_own_the_better_one_counts(
 
 @pytest.mark.usefixtures("search")
 def test_where_no_winding_can_be_followed_nothing_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "refitted", lambda *_: None)
+    monkeypatch.setattr(module, "in_valleys", lambda *_, **__: None)
     assert arc_beside_any_winding(start(), WINDING, 100.0) is None
 
 

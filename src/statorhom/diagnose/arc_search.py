@@ -16,7 +16,7 @@ from typing import TypeVar
 import numpy as np
 from scipy.stats import qmc
 
-from statorhom.diagnose.explanations import COARSE, NARROWING, by_degrees, narrowed, refitted
+from statorhom.diagnose.explanations import COARSE, NARROWING, by_degrees, in_valleys, narrowed, refitted
 from statorhom.diagnose.few_vectors import in_few_vectors, in_few_vectors_near
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.refit import Refit, refit_objective
@@ -51,7 +51,7 @@ def arc_beside_any_winding(start: Start, winding: Sequence[int], worth: float) -
     few = in_few_vectors(start.hypothesis, _points(start, winding, SAMPLES, SEED + 1))
     rough = replace(few, discrepancy=COARSE, trained=False)
     nearest = apart(nearest_first(rough, _points(start, winding, TRIALS, SEED)), FOLLOWED[0])
-    found = _optima(partial(_in_valleys, few, NARROWING[0]), nearest, few)
+    found = _optima(partial(in_valleys, few, discrepancy=NARROWING[0]), nearest, few)
     found = _optima(_narrower, found[: FOLLOWED[1]], few)
     found = _optima(_turned, found[: FOLLOWED[2]], few)
     found = [r for r in found if r.objective < worth + FAR_BEHIND]
@@ -89,11 +89,6 @@ def _different(found: Sequence[Refit]) -> list[Refit]:
     return different(found, lambda r: np.delete(r.z, _place(r.hypothesis, ANGLE)))
 
 
-def _in_valleys(few: Hypothesis, discrepancy: float, z: np.ndarray) -> Refit | None:
-    """The optimum next to a point in valleys of some width."""
-    return refitted(replace(few, held=None, discrepancy=discrepancy), z)
-
-
 def _narrower(found: Refit) -> Refit | None:
     """The optimum next to one in wider valleys: in these most that will not do in the narrowest ones stay behind."""
     return narrowed(found, NARROWING[1:])
@@ -101,11 +96,12 @@ def _narrower(found: Refit) -> Refit | None:
 
 def _turned(found: Refit) -> Refit | None:
     """In the narrowest valleys, and from the best place of its arc: wide ones see none."""
-    own = _in_valleys(found.hypothesis, 0.0, found.z)
-    if own is None:
+    narrow = in_valleys(found.hypothesis, found.z, 0.0)
+    if narrow is None:
         return None
-    begun = nearest_first(replace(own.hypothesis, held=None), [own.z, *_all_around(own.hypothesis, own.z)])
-    return refitted(replace(own.hypothesis, held=None), begun[0]) if begun else None
+    own = replace(narrow.hypothesis, held=None)
+    begun = nearest_first(own, [narrow.z, *_all_around(own, narrow.z)])
+    return refitted(own, begun[0]) if begun else None
 
 
 def _all_around(hypothesis: Hypothesis, z: np.ndarray) -> list[np.ndarray]:

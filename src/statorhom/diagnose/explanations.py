@@ -172,16 +172,21 @@ def through_wide_valleys(hypothesis: _H, z: np.ndarray, rough: Refit[_H] | None 
     return None if found is None else refitted(replace(hypothesis, held=None), narrowed(found).z)
 
 
+def in_valleys(hypothesis: _H, z: np.ndarray, discrepancy: float) -> Refit[_H] | None:
+    """The optimum next to a point in valleys of some width."""
+    return refitted(replace(hypothesis, held=None, discrepancy=discrepancy), z)
+
+
 def narrowed(rough: Refit[_H], steps: Sequence[float] = NARROWING) -> Refit[_H]:
     """An optimum in wide valleys, followed as far as it can be without their narrowest part."""
     for discrepancy in steps:
-        rough = refitted(replace(rough.hypothesis, held=None, discrepancy=discrepancy), rough.z) or rough
+        rough = in_valleys(rough.hypothesis, rough.z, discrepancy) or rough
     return rough
 
 
 def by_degrees(hypothesis: _H, z: np.ndarray) -> Refit[_H] | None:
     """The optimum next to a point of another model, through valleys that narrow by degrees."""
-    wide = refitted(replace(hypothesis, held=None, discrepancy=NARROWING[0]), z)
+    wide = in_valleys(hypothesis, z, NARROWING[0])
     return None if wide is None else refitted(replace(hypothesis, held=None), narrowed(wide, NARROWING[1:]).z)
 
 

@@ -185,7 +185,7 @@ def _between(vectors: Sequence[np.ndarray], matrix: np.ndarray) -> np.ndarray:
     return np.hstack([part @ v for v, part in zip(vectors, np.split(rows, ends, axis=1), strict=True)])
 
 
-def arc_groups(ring: RingBasis, pieces: tuple[Pieces, ...]) -> Iterator[ArcGroup]:
+def arc_groups(ring: RingBasis, pieces: tuple[Pieces, Pieces]) -> Iterator[ArcGroup]:
     """The problems of each axial parity, and the contact between them (`WavesContact`).
 
     One after the other: what a group keeps takes a gigabyte where bases are large.

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from functools import reduce
 
 import numpy as np
 import scipy.sparse as sp
@@ -29,12 +28,11 @@ class WavesContact:
     Parameters
     ----------
     waves : one harmonic after the other.
-    pieces : of the contact per unit stiffness, normal and tangential; or of both in their ratio, per unit of the
-        normal one.
+    pieces : of the contact, normal and tangential, per unit stiffness.
     """
 
     waves: Waves
-    pieces: tuple[Pieces, ...]
+    pieces: tuple[Pieces, Pieces]
     _bond: dict[tuple[float, float], Gram] = field(default_factory=dict, repr=False)
 
     def change(self, joint: Joint, share: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -77,13 +75,12 @@ class WavesContact:
         stiffness = joint.normal, joint.tangential
         if stiffness not in self._bond:
             self._bond.clear()
-            parts = (self._gram(k, p) for k, p in zip(stiffness, self.pieces, strict=False))
-            self._bond[stiffness] = reduce(_sum, parts)
+            normal, tangential = self.pieces
+            # both act on the same displacements: their products are those of one
+            matrices = joint.normal * normal.matrices + joint.tangential * tangential.matrices
+            bond = replace(normal, matrices=matrices)
+            self._bond[stiffness] = GramCache().grams(bond, np.arange(len(bond)), [self.waves], self.waves)[0]
         return self._bond[stiffness]
-
-    def _gram(self, stiffness: float, pieces: Pieces) -> Gram:
-        scaled = replace(pieces, matrices=stiffness * pieces.matrices)
-        return GramCache().grams(scaled, np.arange(len(pieces)), [self.waves], self.waves)[0]
 
     def _weighed(self, product: np.ndarray, even: FloatArray, odd: FloatArray, sign: int) -> FloatArray:
         """Real part of a product, weighed by the sums or the differences of the harmonics."""
@@ -100,7 +97,3 @@ class WavesContact:
         order = self.waves.order
         begins = np.flatnonzero(np.r_[True, order[1:] != order[:-1]])
         return order[begins].astype(int), np.diff(np.r_[begins, len(order)])
-
-
-def _sum(one: Gram, other: Gram) -> Gram:
-    return Gram(one.hermitian + other.hermitian, one.transposed + other.transposed)

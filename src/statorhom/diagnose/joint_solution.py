@@ -105,13 +105,6 @@ class Arcs:
         return np.unique(self.pieces[0].dofs)
 
     @cached_property
-    def bond(self) -> Pieces:
-        """Both contacts in the ratio that they have outside the arcs, per unit of the normal one."""
-        normal, tangential = self.pieces
-        ratio = self.usual.tangential / self.usual.normal
-        return replace(normal, matrices=normal.matrices + ratio * tangential.matrices)
-
-    @cached_property
     def intact(self) -> sp.csr_array:
         """Contact of the half pitch between the displacements that it acts on."""
         return sp.csr_array(self._bond[self.touched][:, self.touched])
@@ -172,7 +165,7 @@ class Arcs:
         even = RingModes((), tuple(values), tuple(np.eye(len(v)) for v in values), problems)
         parts: list[list[np.ndarray]] = [[] for _ in problems]
         forces: list[list[np.ndarray]] = [[] for _ in problems]
-        for group in arc_groups(replace(self.ring, problems=problems), (self.bond,)):
+        for group in arc_groups(replace(self.ring, problems=problems), self.pieces):
             for sine, family in enumerate(group.weakened(even, joint).families):
                 chosen, own = self._in_band(family, vectors)
                 lost = self._lost(joint, own, bool(sine))

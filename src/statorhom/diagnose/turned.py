@@ -16,6 +16,7 @@ from statorhom.diagnose.explanations import refitted
 from statorhom.diagnose.opposite import TOLD
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.valleys import nearest_first
+from statorhom.physics.parameter import EffectParameter
 
 
 def at_fitting_angle(best: Refit, worth: float = np.inf) -> Refit:
@@ -29,9 +30,9 @@ def at_fitting_angle(best: Refit, worth: float = np.inf) -> Refit:
     turns = _turns(best)
     if not turns:
         return best
-    for place in _angle_places(best):
+    for place, angle in _angles(best):
         here = replace(best.hypothesis, held=None)
-        nearest = nearest_first(here, [best.z, *(_turned(best, place, turn) for turn in turns)])
+        nearest = nearest_first(here, [best.z, *(_turned(best.z, place, angle, turn) for turn in turns)])
         if not nearest or nearest[0] is best.z:
             continue
         there = refitted(here, nearest[0], min(best.objective, worth))
@@ -51,21 +52,15 @@ def _turns(best: Refit) -> list[float]:
     return sorted({pi * k / order for order in orders for k in range(1, order)})
 
 
-def _angle_places(best: Refit) -> list[int]:
-    """Of the effects' angles in the vector."""
+def _angles(best: Refit) -> list[tuple[int, EffectParameter]]:
+    """Where the effects' angles stand in the vector, and their parameters."""
     h = best.hypothesis
-    return [
-        h.constants + k
-        for k, (i, j) in enumerate(h.parameters)
-        if h.candidates[i].parameters[j].scale == "angle"
-    ]
+    found = ((h.constants + k, h.candidates[i].parameters[j]) for k, (i, j) in enumerate(h.parameters))
+    return [(place, parameter) for place, parameter in found if parameter.scale == "angle"]
 
 
-def _turned(best: Refit, place: int, turn: float) -> np.ndarray:
-    """The optimum with one angle turned."""
-    h = best.hypothesis
-    i, j = h.parameters[place - h.constants]
-    parameter = h.candidates[i].parameters[j]
-    z = best.z.copy()
-    z[place] = parameter.internal(parameter.value(float(z[place])) + turn)
-    return z
+def _turned(z: np.ndarray, place: int, parameter: EffectParameter, turn: float) -> np.ndarray:
+    """Coordinates with one angle turned."""
+    turned = z.copy()
+    turned[place] = parameter.internal(parameter.value(float(z[place])) + turn)
+    return turned
