@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from types import SimpleNamespace
 from typing import Any
 
@@ -29,13 +30,28 @@ def explanation(label: str, log_evidence: float, adequacy: float = 0.0) -> Any:
     )
 
 
-def led(monkeypatch: pytest.MonkeyPatch, p_value: float, *steps: tuple[Any, list[Any]]) -> Any:
-    """What leads where the declared model is first one, then another."""
+def led(
+    monkeypatch: pytest.MonkeyPatch,
+    p_value: float,
+    *steps: tuple[Any, list[Any]],
+    again: Sequence[Any] = (),
+) -> Any:
+    """What leads where the declared model is first one, then another; `again`: refits of one candidate there."""
     bases = [b for b, _ in steps]
     monkeypatch.setattr(leading, "lacks_modes", lambda _: False)
     monkeypatch.setattr(
-        leading, "scan", lambda fit, *_: SimpleNamespace(p_value=1e-4 if fit is bases[0].free else p_value)
+        leading,
+        "scan",
+        lambda fit, *_: SimpleNamespace(
+            p_value=1e-4 if fit is bases[0].free else p_value,
+            signatures=[SimpleNamespace(candidate=SimpleNamespace(label=e.label), gain=9.0) for e in again],
+        ),
     )
+    monkeypatch.setattr(leading, "starts_of", lambda _, __, signature: signature.candidate.label)
+    monkeypatch.setattr(
+        leading, "refits", lambda _, trials, __: [e for e in again if (9.0, e.label) in trials]
+    )
+    monkeypatch.setattr(leading, "in_other_valleys", lambda _, found, __: found)
     monkeypatch.setattr(leading, "with_repeated_null", lambda _, found, __: found)
     monkeypatch.setattr(leading, "single_effects", lambda fit, *_: next(e for b, e in steps if b.free is fit))
     monkeypatch.setattr(leading, "new_names", lambda *_: [])
@@ -89,6 +105,16 @@ def test_what_leaves_nothing_needs_no_rivals_from_another_valley(monkeypatch: py
     soft = explanation("soft", -53.0, 0.5)
     found = led(monkeypatch, 1e-4, (base(-700.0), [soft]), (base(-99.7), [explanation("loose", -90.0)]))
     assert found.found == (soft,)
+
+
+def test_what_needs_no_rivals_is_itself_sought_again_in_the_deeper_valley(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The same effect may explain as much with other constants, and then with another magnitude."""
+    soft, better = explanation("soft", -53.0, 0.5), explanation("soft", -40.0)
+    loose = explanation("loose", -30.0)
+    steps = (base(-700.0), [soft]), (base(-99.7), [explanation("lump", -20.0)])
+    assert led(monkeypatch, 1e-4, *steps, again=[better, loose]).found == (better,)
 
 
 def test_what_only_stood_in_for_the_deeper_valley_has_rivals_there(monkeypatch: pytest.MonkeyPatch) -> None:

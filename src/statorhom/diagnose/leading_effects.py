@@ -14,9 +14,11 @@ from statorhom.diagnose.explanations import ADEQUATE, Explanation, nothing
 from statorhom.diagnose.held_out_name import renames_alone
 from statorhom.diagnose.lacking_modes import lacks_modes
 from statorhom.diagnose.lost_contact import with_lost_contact
+from statorhom.diagnose.other_valleys import in_other_valleys
+from statorhom.diagnose.refit_starts import starts_of
 from statorhom.diagnose.repeated_null import with_repeated_null
 from statorhom.diagnose.scan import Scan, scan
-from statorhom.diagnose.single_effects import new_names, single_effects
+from statorhom.diagnose.single_effects import new_names, refits, single_effects
 from statorhom.physics.candidate import Candidate
 
 AGAIN = 2  # times that the declared model is sought where explanations lead
@@ -79,8 +81,8 @@ def leading_effects(
         deeper = approach.declared_again(leading.base, leading.found)
         if deeper is None:
             break
-        search = not _explains(leading.found[0], deeper)
-        leading = _joined(leading, _beside(deeper, candidates, counts, seed, search=search))
+        only = leading.found[0].label if _explains(leading.found[0], deeper) else None
+        leading = _joined(leading, _beside(deeper, candidates, counts, seed, only=only))
     return _with_lost_contact(leading, candidates, counts)
 
 
@@ -90,18 +92,24 @@ def _beside(
     counts: dict[str, int],
     seed: int,
     *,
-    search: bool = True,
+    only: str | None = None,
 ) -> Leading:
     signatures = scan(base.free, [c for c in candidates if c.parameters], seed)
     signatures = with_repeated_null(base.free, signatures, seed)
     discrete = [c for c in candidates if not c.parameters]
     begun = Leading(base, signatures, lacks_modes(base.free), ())
-    if begun.misfit_is_real and search:
-        found = single_effects(base.free, signatures, discrete, counts)
+    if begun.misfit_is_real and only is None:
+        found = in_other_valleys(base, single_effects(base.free, signatures, discrete, counts), counts)
     else:
-        # nothing but another name can be found any more
-        found = new_names(base.free, discrete, counts)
+        # no rival but another name can be found any more
+        found = [*_of_one(base, signatures, only, counts), *new_names(base.free, discrete, counts)]
     return replace(begun, found=tuple(found))
+
+
+def _of_one(base: Baseline, found: Scan, label: str | None, counts: dict[str, int]) -> list[Explanation]:
+    """The candidate of a label, which may explain as much with other constants, and then with another magnitude."""
+    own = [s for s in found.signatures if s.candidate.label == label]
+    return refits(base.free, [(s.gain, starts_of(base.free, found, s)) for s in own[:1]], counts)
 
 
 def _with_lost_contact(leading: Leading, candidates: Sequence[Candidate], counts: dict[str, int]) -> Leading:

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.diagnose.feature import Feature
-from statorhom.diagnose.measured import MeasuredTest, Sideband
+from statorhom.diagnose.measured import MeasuredTest, PlaneShifts, Sideband
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.model.convergence import ModeKey
 from statorhom.study.modal_table import MeasuredMode
@@ -33,6 +33,8 @@ BROAD, MOST_LEAN = 0.03, 0.3
 # Of half a loss factor: what a roving sensor may move poles by from plane to plane. A shape that is taken at one pole
 # leans by what the others are off.
 MOVED = 0.02
+# Standard deviations of two planes' difference, up to which it may be noise: a weak mode's shifts say nothing.
+NOISE = 3.0
 
 
 def lean_features(
@@ -77,8 +79,15 @@ def _moves(test: MeasuredTest) -> bool:
     """Whether a sensor moves a test's poles by enough to change shapes."""
     losses = {m.label: m.loss_factor for m in test.modes}
     return any(
-        np.ptp(s.shift) > MOVED * 0.5 * loss for s in test.shifts if (loss := losses.get(s.label)) is not None
+        _moved(s) > MOVED * 0.5 * loss for s in test.shifts if (loss := losses.get(s.label)) is not None
     )
+
+
+def _moved(shifts: PlaneShifts) -> float:
+    """How far a pole certainly moves between the planes where it is highest and lowest."""
+    most, least = int(shifts.shift.argmax()), int(shifts.shift.argmin())
+    doubt = hypot(shifts.sd[most], shifts.sd[least])
+    return float(shifts.shift[most] - shifts.shift[least]) - NOISE * doubt
 
 
 def _is_sharp(mode: MeasuredMode) -> bool:

@@ -22,6 +22,7 @@ from statorhom.diagnose.explanations import (
     through_wide_valleys,
 )
 from statorhom.diagnose.from_the_best import from_the_best
+from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.mirrored import at_fitting_height
 from statorhom.diagnose.mislabelled import worth_trying
 from statorhom.diagnose.refit import Refit
@@ -43,7 +44,6 @@ from statorhom.diagnose.scan import Scan
 from statorhom.diagnose.searched_starts import of_later_steps
 from statorhom.diagnose.side_by_side import side_by_side
 from statorhom.diagnose.turned import at_fitting_angle
-from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
 
 MOST = 12  # candidates that are refitted
@@ -237,7 +237,7 @@ def _rival(start: Start, worth: float, known: float) -> Refit | None:
     """
     hypothesis = start.hypothesis
     actions = hypothesis.actions(start.z)
-    if not any(a.training or a.dimensions for a in actions) or _is_a_field(start, actions):
+    if not any(a.training or a.dimensions for a in actions) or is_a_field(hypothesis, start.z):
         return refitted(hypothesis, start.z, worth)
     promising = max(worth, PROMISING * known) if np.isfinite(known) else worth
     quick = refitted(replace(hypothesis, trained=False), start.z, promising)
@@ -251,10 +251,10 @@ def _rival(start: Start, worth: float, known: float) -> Refit | None:
     return min((r for r in (found, straight) if r is not None), key=_objective)
 
 
-def _is_a_field(start: Start, actions: Sequence[Action]) -> bool:
+def is_a_field(hypothesis: Hypothesis, z: np.ndarray) -> bool:
     """Whether the last effect is all over its region, so that without local fields nothing of it is seen."""
-    number = len(start.hypothesis.candidates) - 1
-    return actions[number].training is not None and not start.hypothesis.candidates[number].located
+    number = len(hypothesis.candidates) - 1
+    return hypothesis.actions(z)[number].training is not None and not hypothesis.candidates[number].located
 
 
 def _through(start: Start) -> Refit | None:

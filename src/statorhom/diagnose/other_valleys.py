@@ -1,0 +1,66 @@
+"""What varies all over a region, sought beside the constants of the declared model's other valleys too.
+
+A strong one bends so many modes that the declared model without it may fit better in a wrong valley than in its own:
+beside those constants another magnitude explains something, and only the size of what is left tells.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+
+from statorhom.diagnose.baseline import Baseline
+from statorhom.diagnose.explanations import Explanation, blank, explained, through_wide_valleys, widened
+from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.refit_starts import is_poor
+from statorhom.diagnose.scan import starts
+from statorhom.diagnose.sharper import in_its_own_model, sharpened
+from statorhom.diagnose.side_by_side import side_by_side
+from statorhom.diagnose.single_effects import is_a_field
+from statorhom.errors import StatorhomError
+
+VALLEYS = 2  # that are followed, the best first
+
+
+def in_other_valleys(
+    base: Baseline, found: Sequence[Explanation], counts: dict[str, int]
+) -> list[Explanation]:
+    """The explanations, the best first; one that is all over its region in the best of the declared valleys.
+
+    Parameters
+    ----------
+    base : the declared model, with its other valleys.
+    found : explanations beside it, the best first.
+    counts : effect → number of its candidates, over which its prior is spread.
+    """
+    if not found or not is_poor(base.free) or not is_a_field(found[0].refit.hypothesis, found[0].refit.z):
+        return list(found)
+    hypothesis = found[0].refit.hypothesis
+    begun = blank(hypothesis, hypothesis.candidates)
+    again = side_by_side(partial(_in_valley, begun), base.valleys[:VALLEYS], [begun, *begun.shared])
+    best = min((r for r in again if r is not None), key=_objective, default=None)
+    if best is None:
+        return list(found)
+    own = sharpened(explained(best, counts)).refit
+    if own.objective >= found[0].refit.objective:
+        return list(found)
+    return sorted((explained(own, counts), *found[1:]), key=lambda e: -e.log_evidence)
+
+
+def _in_valley(hypothesis: Hypothesis, constants: np.ndarray) -> Refit | None:
+    """The optimum next to other constants, from the best magnitude in wide valleys, in a model of its own."""
+    points = [np.r_[constants, start] for start in starts(hypothesis.study, hypothesis.candidates[-1])]
+    try:
+        own = in_its_own_model(hypothesis, points[0])
+    except (StatorhomError, KeyError):
+        return None
+    wide = [r for z in points if (r := widened(own, z)) is not None]
+    rough = min(wide, key=_objective, default=None)
+    return None if rough is None else through_wide_valleys(own, rough.z, rough)
+
+
+def _objective(found: Refit) -> float:
+    return found.objective
