@@ -147,7 +147,7 @@ def _find(
         # reported numbers come from the explanation's own model, comparisons from the common one
         best = replace(approach.final(best), log_evidence=best.log_evidence, compared=best.compared)
     evidence = _evidence(leading, best, none, found, settings.seed)
-    evidence = replace(evidence, confirmed=confirmed or len(best.candidates) < 2)
+    evidence = replace(evidence, confirmed=confirmed or not best.is_pair)
     return Found(decide(evidence), best, tuple(found), leading.scan, evidence, leading.base)
 
 
@@ -283,8 +283,8 @@ def _details(approach: Approach, files: StudyFiles, found: Found, choice: Choice
         evidence=tuple((x.candidates[0].label, x.log_evidence) for x in found.explanations),
         seconds=seconds,
         simpler=_simpler(found),
-        second_confirmed=e.confirmed if len(best.candidates) > 1 else None,
-        rules=rule_rows(e, pair=len(best.candidates) > 1),
+        second_confirmed=e.confirmed if best.is_pair else None,
+        rules=rule_rows(e, pair=best.is_pair),
         options=choice.options,
         **approach.pictures(files, found.base.refit, best, found.verdict == "named", found.verdict != "none"),
         summaries=summaries(tuple(dict.fromkeys(n for x in found.explanations for n in x.effects)), files),

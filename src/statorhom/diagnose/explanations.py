@@ -56,6 +56,11 @@ class Explanation(Generic[H]):
         return tuple(c.effect for c in self.candidates)
 
     @property
+    def is_pair(self) -> bool:
+        """Whether it takes more than one effect."""
+        return len(self.candidates) > 1
+
+    @property
     def label(self) -> str:
         """Of its candidates."""
         return " + ".join(c.label for c in self.candidates)

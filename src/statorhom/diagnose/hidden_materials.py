@@ -53,7 +53,7 @@ def beside_hidden_materials(
         found += second_effects(first, left, counts)
     enough = (e for e in found if e.log_evidence > best.log_evidence + PAIR_GAIN)
     pairs = with_both_needed(sorted(enough, key=lambda e: -e.log_evidence), counts)
-    if not pairs or len(pairs[0].candidates) < 2:
+    if not pairs or not pairs[0].is_pair:
         return pairs, True
     unseen = unseen_modes(best.refit, pairs[0])
     return pairs, unseen.falls and not unseen.worsens

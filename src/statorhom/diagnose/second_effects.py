@@ -82,7 +82,7 @@ def confirmed_pairs(
     if enough and with_repeated_null(first.refit, left, seed).p_value >= MAX_T_P:
         return [], True
     pairs = with_both_needed(second_effects(first, left, counts), counts)
-    if pairs and len(pairs[0].candidates) < 2:
+    if pairs and not pairs[0].is_pair:
         return pairs, True
     if not pairs or (enough and stability([pairs[0], none, first], seed) < STABLE):
         return [], True
