@@ -15,9 +15,9 @@ DECLARED = 200.0  # objective in wide valleys
 
 
 def explanation(log_evidence: float, adequacy: float = 0.0, effects: int = 2) -> Any:
-    refit, candidates = SimpleNamespace(log_evidence=log_evidence), (None,) * effects
+    refit = SimpleNamespace(log_evidence=log_evidence)
     return SimpleNamespace(
-        log_evidence=log_evidence, adequacy_but_one=adequacy, refit=refit, candidates=candidates
+        log_evidence=log_evidence, adequacy_but_one=adequacy, refit=refit, is_pair=effects > 1
     )
 
 

@@ -136,7 +136,7 @@ def found_beside(
         "with_repeated_null",
         lambda _, left, __: SimpleNamespace(p_value=max(left.p_value, repeated_p)),
     )
-    pair, alone = (SimpleNamespace(refit=None, candidates=(None,) * count) for count in (2, 1))
+    pair, alone = (SimpleNamespace(refit=None, is_pair=count > 1) for count in (2, 1))
     monkeypatch.setattr(module, "second_effects", lambda *_: [pair])
     monkeypatch.setattr(module, "with_both_needed", lambda pairs, _: pairs if needed else [alone])
     monkeypatch.setattr(module, "unseen_modes", lambda *_: held)
