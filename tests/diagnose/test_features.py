@@ -85,3 +85,38 @@ def test_a_small_split_beside_large_ones_says_little_of_its_cause(recorded: bool
 
     assert residual_of_the_second(0.04) < 1.5
     assert residual_of_the_second(0.001) > 5.0
+
+
+@pytest.mark.parametrize("recorded", [False, True])
+def test_of_a_mixed_mode_neither_mean_nor_split_is_certain(recorded: bool) -> None:
+    """Its lines may be called by another mode's name: it moves the mean by half, the split by twice as much."""
+    key = (2, 0, 0)
+    lines = tuple(MeasuredMode(i, str(i), 1000.0 + 40 * i, order=2, axial=0) for i in range(2))
+    test = MeasuredTest(0, "t", "free", lines, recorded, (MeasuredSplit("0", "1", 0.08 + 0j, 1e-4),))
+    mode = PredictedMode(
+        key, StatorMode(1000.0, 2, 0, "radial", 1.0, 2, 0, 0), float(np.log(1000.0)), 0j, 1e-3
+    )
+    for rows in (lines, lines[:1]):
+        sharp, mixed = (
+            free_features(test, rows, (key,) * len(rows), {key: replace(mode, blur=b)}, {}, ModelError())
+            for b in (0.0, 0.02)
+        )
+        assert [f.kind for f in mixed] == [f.kind for f in sharp]
+        assert mixed[0].sd == pytest.approx(0.02, rel=0.01) and sharp[0].sd < 3e-3
+        if len(rows) == 2:
+            assert mixed[1].sd == pytest.approx(0.08, rel=0.02) and sharp[1].sd < 0.02
+
+
+def test_a_doublet_that_is_mixed_need_not_show_both_lines() -> None:
+    key = (2, 0, 0)
+    line = MeasuredMode(0, "0", 1000.0, loss_factor=0.007, order=2, axial=0)
+    test = MeasuredTest(0, "t", "free", (line,), True)
+    mode = PredictedMode(
+        key, StatorMode(1000.0, 2, 0, "radial", 1.0, 2, 0, 0), float(np.log(1000.0)), 0.05 + 0j, 1e-3
+    )
+    silent = [
+        free_features(test, (line,), (key,), {key: replace(mode, blur=b)}, {}, ModelError())[1].predicted
+        for b in (0.0, 0.02)
+    ]
+    assert silent[0] > 2.5
+    assert silent[1] < 1.0

@@ -43,7 +43,7 @@ def test_a_linear_model_is_resampled_exactly() -> None:
     """At the optimum of a linear model: the evidence without rows is that of a fit without them."""
     rng = np.random.default_rng(2)
     J, data = rng.normal(size=(8, 2)), rng.normal(size=8)
-    hypothesis = SimpleNamespace(prior_weights=np.ones(2), missed=0.0)
+    hypothesis = SimpleNamespace(prior_weights=np.ones(2), missed=0.0, blurs=())
 
     def fitted(rows: np.ndarray) -> tuple[Refit, np.ndarray]:
         A, y = J[rows], data[rows]
@@ -66,7 +66,7 @@ def explanation(log_evidence: float, residuals: list[float]) -> SimpleNamespace:
     rows = [frozenset([("free", str(i))]) for i in range(4)] + [frozenset([WEIGHED])]
     hypothesis = SimpleNamespace(
         prior_weights=np.ones(1),
-        missed=0.0,
+        missed=0.0, blurs=(),
         features=lambda _: [SimpleNamespace(observed=row) for row in rows],
         residuals=lambda _: np.array(residuals),
     )

@@ -60,7 +60,9 @@ class AnyHypothesis(ABC):
     candidates : effects added.
     left_out : groups of features (`Feature.group`) that the residuals do not see.
     held : test → partners of its modes; None to pair anew.
-    missed : -2 ln of the chance that the tests did not find the predicted modes that have no partner.
+    missed : -2 ln of the chance that the tests did not find the predicted modes that have no partner, and of how much
+        less is said of modes that are mixed with others.
+    blurs : of these (`PredictedMode.blur`).
     discrepancy : relative standard deviation added to all frequencies: makes the valleys wide enough to be found.
     trained : whether bases hold the local fields that an effect asks for (`Action.training`), and machines of other
         dimensions are solved. Both are dear, and what an effect promises can be told without them.
@@ -71,6 +73,7 @@ class AnyHypothesis(ABC):
     left_out: frozenset[tuple[str, ModeKey | None]] = frozenset()
     held: Mapping[str, Any] | None = None
     missed: float = 0.0
+    blurs: tuple[float, ...] = ()
     discrepancy: float = 0.0
     trained: bool = True
 

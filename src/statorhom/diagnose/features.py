@@ -33,6 +33,7 @@ SPLIT_PART = 0.05  # of a split: shape and foot of what causes it are not known
 # of the splits of a test, root mean square: what of a local cause bends and what of it shears nearly cancels in some
 # mode, and the rest says more of its shape than of its size
 TYPICAL_PART = 0.1
+BLURRED = 4.0  # of what a mode's mean moves by when one of its lines is called otherwise: its split's change
 UNRESOLVED = 0.6  # of the loss factor: standard deviation of a split that shows one mode alone
 SHIFT_OWN, SHIFT_PART = 5e-5, 0.08  # of pole shifts from plane to plane: tangential motion, scatter
 
@@ -66,8 +67,9 @@ def free_features(
         if key is None:
             found += lost_lines(test, rows, modes, typical)
         elif key in predicted:
-            own = hypot(own_sd(error, key), discrepancy)
-            found += _mode_features(test, rows, predicted[key], scatter, own, TYPICAL_PART * typical)
+            own = hypot(own_sd(error, key), discrepancy, predicted[key].blur)
+            shape = hypot(TYPICAL_PART * typical, BLURRED * predicted[key].blur)
+            found += _mode_features(test, rows, predicted[key], scatter, own, shape)
         else:
             found += _vanished(test, rows, key)
     return found
@@ -175,7 +177,7 @@ def _single(
     # where the effect parts the two lines, it is one of them, a quarter of the split of λ to either side of the mean
     away = abs(predicted.split) / 4 if abs(predicted.split) > (row.loss_factor or 0.01) else 0.0
     log_f += away * tanh((measured - log_f) / (0.3 * away + 1e-9))
-    width = UNRESOLVED * (row.loss_factor or 0.01)
+    width = hypot(UNRESOLVED * (row.loss_factor or 0.01), BLURRED * predicted.blur)
     # tables leave modes out, and know no angles
     most, parts = (3.0, 2) if test.recorded else (1.8, 1)
     silence = Silence(abs(split), width, most, parts)

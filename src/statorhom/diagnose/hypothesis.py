@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
-from statorhom.diagnose.assignment import NEAR, Keys, assigned, missed_cost
+from statorhom.diagnose.assignment import NEAR, Keys, assigned, blurs_of, missed_cost, mixed_cost
 from statorhom.diagnose.constants import sinking_of
 from statorhom.diagnose.counted_planes import counted_at_planes
 from statorhom.diagnose.damping import (
@@ -105,7 +105,7 @@ class Hypothesis(AnyHypothesis):
         tests : by name.
         """
         stages = [s.with_tests([tests.get(t.name, t) for t in s.tests]) for s in self.study.stages]
-        return replace(self, study=self.study.with_stages(tuple(stages)), held=None, missed=0.0)
+        return replace(self, study=self.study.with_stages(tuple(stages)), held=None, missed=0.0, blurs=())
 
     def paired(self, z: FloatArray) -> Hypothesis:
         """With the pairing held as it is at z: of near partners, or of far ones where these leave less.
@@ -141,8 +141,9 @@ class Hypothesis(AnyHypothesis):
     ) -> Hypothesis:
         """With partners of free tests too, no farther away than `reach` says."""
         keys = {test.name: assigned(test, self.modes(test, actions), found, reach) for test, found in free}
-        missed = sum(missed_cost(test, keys[test.name], found) for test, found in free)
-        return replace(self, held={**(self.held or {}), **keys}, missed=missed)
+        blurs = tuple(blur for test, found in free for blur in blurs_of(keys[test.name], found))
+        missed = sum(missed_cost(test, keys[test.name], found) for test, found in free) + mixed_cost(blurs)
+        return replace(self, held={**(self.held or {}), **keys}, missed=missed, blurs=blurs)
 
     def _partners(
         self, stage: StageModel, test: MeasuredTest, found: Mapping[ModeKey, PredictedMode], z: FloatArray

@@ -42,6 +42,7 @@ class PredictedMode(NamedByMode):
     shown : counts that a test's planes may show instead of its own, the likeliest first; empty where they are unknown.
     counted : what it is counted by, where that is not its own count.
     profile : (heights,) its order's radial motion at the stage's `heights_m`; None where nobody measured it.
+    blur : relative standard deviation of which mode is called by its name.
     """
 
     key: ModeKey
@@ -57,6 +58,7 @@ class PredictedMode(NamedByMode):
     shown: tuple[int, ...] = ()
     counted: int | None = None
     profile: np.ndarray | None = None
+    blur: float = 0.0
 
     @property
     def axial(self) -> int | None:
@@ -164,6 +166,7 @@ def predicted(
             scattered=stage.scattered.get(key, 1.0),
             other_axial=response.other_axial,
             profile=own.get(key) if response.profile is None else response.profile,
+            blur=response.blur,
         )
     return found
 

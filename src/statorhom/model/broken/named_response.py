@@ -11,6 +11,8 @@ from statorhom.model.broken.solve import BrokenModes
 from statorhom.model.harmonic import Harmonic
 
 LEAST = 0.2  # share of a doublet's plane that its two modes must keep to be called its own
+# Modes so near (of ln f) that have so much of a doublet's plane may be called by its name as well as its own.
+NEAR, MIXED = 0.08, 0.25
 
 
 @dataclass(frozen=True)
@@ -37,12 +39,14 @@ class Response:
     split : complex split b_r over the mean λ (`statorhom.modes.doublets.complex_split`).
     other_axial : count of node planes that it may show as well as its own.
     profile : (heights,) its order's radial motion along the axis; None where nobody asked.
+    blur : relative standard deviation of what is called by its name, where that is a mixture of modes of several names.
     """
 
     shift: float
     split: complex
     other_axial: int | None = None
     profile: np.ndarray | None = None
+    blur: float = 0.0
 
 
 def columns_of(basis: SymmetricBasis, space: Harmonic, frequency_hz: float) -> Columns | None:
@@ -92,10 +96,23 @@ def named_response(modes: BrokenModes, place: Columns) -> Response | None:
 
 def response_of(modes: BrokenModes, place: Columns, pair: NearestPair) -> Response:
     """Response of a named mode whose broken modes are known."""
-    values = modes.eigenvalues[pair.modes]
+    values, blur = modes.eigenvalues[pair.modes], blur_of(modes, place, pair)
     if len(values) == 1:
-        return Response(0.5 * float(np.log(values[0] / place.eigenvalue)), 0j)
+        return Response(0.5 * float(np.log(values[0] / place.eigenvalue)), 0j, blur=blur)
     effective = pair.rotation @ np.diag(values) @ pair.rotation.T
     mean = float(values.mean())
     split = complex(effective[0, 0] - effective[1, 1], 2 * effective[0, 1]) / mean
-    return Response(0.5 * float(np.log(mean / place.eigenvalue)), split)
+    return Response(0.5 * float(np.log(mean / place.eigenvalue)), split, blur=blur)
+
+
+def blur_of(modes: BrokenModes, place: Columns, pair: NearestPair) -> float:
+    """Root mean square distance (of ln f) of other modes that have much of a named one; none where it is hardly mixed.
+
+    Two modes of different orders that a lump brings together are half of each name, and which one is called by which
+    depends on what of them the measuring points see.
+    """
+    away = 0.5 * np.log(np.maximum(modes.eigenvalues, 1.0) / modes.eigenvalues[pair.modes].mean())
+    others = np.abs(away) < NEAR
+    others[pair.modes] = False
+    parts = np.sum(modes.participation[place.numbers][:, others] ** 2, axis=0)
+    return float(np.sqrt(parts @ away[others] ** 2)) if parts.sum() > MIXED else 0.0
