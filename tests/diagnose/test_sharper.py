@@ -10,7 +10,7 @@ import pytest
 
 from statorhom.diagnose import sharper as module
 from statorhom.diagnose.explanations import Explanation
-from statorhom.diagnose.sharper import AROUND, ITSELF, MOVED, _arcs, at_its_own_materials, sharpened
+from statorhom.diagnose.sharper import AROUND, ITSELF, _arcs, at_its_own_materials, sharpened
 from statorhom.physics.action import Action, Joint
 
 WOUND = ("winding", "overhang")
@@ -78,19 +78,3 @@ def test_a_rival_s_arc_is_solved_as_it_is_alone(
     monkeypatch.setattr(Explanation, "adequacy_but_one", 0.5)
     assert sharpened(Explanation((), refit, -30.0), leads=leads).settled
     assert asked == [around]
-
-
-@pytest.mark.parametrize(("moved", "kept"), [(0.5, 100.0), (1.5, 280.0)])
-def test_a_model_of_far_other_materials_says_nothing(
-    monkeypatch: pytest.MonkeyPatch, moved: float, kept: float
-) -> None:
-    """Where its own model is worse, the common one may be right; not where it was made for another stiffness."""
-    known, again, wide = (
-        SimpleNamespace(objective=o, hypothesis=None, z=None) for o in (100.0, 300.0, 280.0)
-    )
-    begin: Any = known
-    monkeypatch.setattr(module, "in_its_own_model", lambda *_, **__: None)
-    monkeypatch.setattr(module, "refitted", lambda *_: again)
-    monkeypatch.setattr(module, "through_wide_valleys", lambda *_: wide)
-    monkeypatch.setattr(module, "_has_moved", lambda _, least=MOVED: moved > least)
-    assert module._sharpened(Explanation((), begin, -30.0)).refit.objective == kept

@@ -36,7 +36,6 @@ SETTLED = 2.0  # of the objective, that another one must have gained
 MOVED = (
     0.2  # of the logarithm of a stiffness: from its reference, at which what breaks the symmetry is solved
 )
-ELSEWHERE = 1.0  # the same, from which on the old model says nothing of an explanation
 WORSE = 10.0  # of the objective, by which a model of its own is worse than the common one
 VAGUE = 1.0  # prior standard deviation of a logarithm from which on a constant may be far on either side
 ASIDE = 1.5  # prior standard deviations to either side where such a constant is tried
@@ -89,13 +88,13 @@ def at_its_own_materials(explanation: Explanation) -> Explanation:
     return explanation
 
 
-def _has_moved(r: Refit, least: float = MOVED) -> bool:
+def _has_moved(r: Refit) -> bool:
     """Whether any region's stiffness has left that of its stage's reference."""
     for stage in r.hypothesis.study.stages:
         materials = r.hypothesis.materials(stage, r.z)
         for region, reference in stage.reference.items():
             now, then = (np.diag(m.hooke.matrix) for m in (materials[region], reference))
-            if np.abs(np.log(now / then)).max() > least:
+            if np.abs(np.log(now / then)).max() > MOVED:
                 return True
     return False
 
@@ -108,10 +107,7 @@ def _sharpened(explanation: Explanation, around: tuple[float, ...] = AROUND) -> 
         # other mesh factors may have put the constants onto a slope of another valley
         wide = through_wide_valleys(moved, r.z)
         # and where two modes come near each other, a mesh factor may be that of the other one
-        own = [x for x in (again, wide) if x is not None]
-        # a model of other materials may explain by its errors
-        known = own if own and _has_moved(r, ELSEWHERE) else [*own, r]
-        again = min(known, key=lambda x: x.objective)
+        again = min((x for x in (again, wide, r) if x is not None), key=lambda x: x.objective)
     return replace(explanation, refit=again)
 
 
