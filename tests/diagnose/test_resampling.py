@@ -66,7 +66,8 @@ def explanation(log_evidence: float, residuals: list[float]) -> SimpleNamespace:
     rows = [frozenset([("free", str(i))]) for i in range(4)] + [frozenset([WEIGHED])]
     hypothesis = SimpleNamespace(
         prior_weights=np.ones(1),
-        missed=0.0, blurs=(),
+        missed=0.0,
+        blurs=(),
         features=lambda _: [SimpleNamespace(observed=row) for row in rows],
         residuals=lambda _: np.array(residuals),
     )
