@@ -19,9 +19,8 @@ WIDEST = 0.1  # of ln f: two lines that alone bear one name are a doublet's up t
 ROUNDING = 1e-9
 # of the distance up to which modes are partners: that of partners where most modes agree already
 NEAR = 0.2
-SHARP = (
-    1e-3  # usual relative standard deviation of a predicted mode, beside which one that is mixed is charged
-)
+# usual relative standard deviation of a predicted mode, beside which one that is mixed is charged
+SHARP = 1e-3
 PARTED = 0.01  # of ln f: from which on the lines of a doublet are looked for where each of them is predicted
 
 Keys = tuple[ModeKey | None, ...]

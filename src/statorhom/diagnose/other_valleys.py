@@ -41,7 +41,7 @@ def in_other_valleys(
     hypothesis = found[0].refit.hypothesis
     begun = blank(hypothesis, hypothesis.candidates)
     again = side_by_side(partial(_in_valley, begun), base.valleys[:VALLEYS], [begun, *begun.shared])
-    best = min((r for r in again if r is not None), key=_objective, default=None)
+    best = min((r for r in again if r is not None), key=lambda r: r.objective, default=None)
     if best is None:
         return list(found)
     own = sharpened(explained(best, counts)).refit
@@ -58,9 +58,5 @@ def _in_valley(hypothesis: Hypothesis, constants: np.ndarray) -> Refit | None:
     except (StatorhomError, KeyError):
         return None
     wide = [r for z in points if (r := widened(own, z)) is not None]
-    rough = min(wide, key=_objective, default=None)
+    rough = min(wide, key=lambda r: r.objective, default=None)
     return None if rough is None else through_wide_valleys(own, rough.z, rough)
-
-
-def _objective(found: Refit) -> float:
-    return found.objective
