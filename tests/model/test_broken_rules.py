@@ -144,3 +144,14 @@ def test_odd_sidebands_tell_a_lump_from_one_on_the_other_side():
     np.testing.assert_allclose(
         one[np.ix_((c2, s2), (c3, s3))], -other[np.ix_((c2, s2), (c3, s3))], atol=1e-7 * scale
     )
+
+
+def test_a_soft_strip_does_not_know_where_elements_end():
+    """Parts of an element are compliant one after the other; as if side by side, its place told by a tenth."""
+    element = np.pi / ring().slots
+    shifts = []
+    for part in (0.0, 0.2, 0.5, 0.8):
+        soft = strip(layers(), np.pi / 4 + part * element, width=2.0 * element, depth=0.01, ratio=0.25)
+        found = solve_broken(basis(), [soft], tolerance=1e-3).frequencies_hz[:2]
+        shifts.append(np.log(found / np.sqrt(doublet(2)[0]) * 2 * np.pi).sum())
+    np.testing.assert_allclose(shifts, shifts[0], rtol=0.04)

@@ -145,7 +145,7 @@ CASES = {
     "lump on a foot": ("stack", on_a_foot),
     "two elastic lines": ("stack", on_lines),
     "suspension": ("stack", suspended),
-    "stiff strip": ("stack", on_a_strip(3.0)),
+    "stiff strip": ("stack", on_a_strip(6.0)),
     "soft strip": ("stack", on_a_strip(0.3)),
     "wave": ("stack", waved),
     "pressure gradient": ("stack", pressed),

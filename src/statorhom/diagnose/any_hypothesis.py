@@ -66,6 +66,7 @@ class AnyHypothesis(ABC):
     discrepancy : relative standard deviation added to all frequencies: makes the valleys wide enough to be found.
     trained : whether bases hold the local fields that an effect asks for (`Action.training`), and machines of other
         dimensions are solved. Both are dear, and what an effect promises can be told without them.
+    whole : whether the last effect's parameters that are found last are free too; otherwise they are as usual.
     """
 
     study: ModelledStudy
@@ -76,6 +77,7 @@ class AnyHypothesis(ABC):
     blurs: tuple[float, ...] = ()
     discrepancy: float = 0.0
     trained: bool = True
+    whole: bool = True
 
     @abstractmethod
     def paired(self, z: FloatArray) -> Self:
@@ -140,8 +142,12 @@ class AnyHypothesis(ABC):
         pairs = []
         for i, j in self.parameters:
             p = self.candidates[i].parameters[j]
-            free = p.scale == "angle"
-            pairs.append((-np.inf, np.inf) if free else (p.internal(p.lower), p.internal(p.upper)))
+            if not self.whole and p.last and p.usual is not None and i == len(self.candidates) - 1:
+                pairs.append((p.internal(p.usual),) * 2)
+            elif p.scale == "angle":
+                pairs.append((-np.inf, np.inf))
+            else:
+                pairs.append((p.internal(p.lower), p.internal(p.upper)))
         both = np.array(pairs).reshape(-1, 2)
         return np.r_[low, both[:, 0]], np.r_[high, both[:, 1]]
 

@@ -33,8 +33,11 @@ def jacobian(h: AnyHypothesis, z: FloatArray) -> FloatArray:
 
 def difference(h: AnyHypothesis, z: FloatArray, j: int, start: Sequence[Feature]) -> FloatArray:
     """One column of it; `start` are the features that are seen."""
+    low, high = (limits[j] for limits in h.limits())
+    if low == high:
+        return np.zeros(len(start))  # it stays
     # beyond its limit a place changes nothing
-    inwards = 1.0 if z[j] + EFFECT_STEP <= h.limits()[1][j] else -1.0
+    inwards = 1.0 if z[j] + EFFECT_STEP <= high else -1.0
     for sign in (inwards, -inwards):
         moved = z.copy()
         moved[j] += sign * EFFECT_STEP

@@ -209,7 +209,8 @@ def _as_large(signature: Signature) -> np.ndarray:
 
 def start_of(base: Refit, candidate: Candidate, start: np.ndarray) -> Start:
     hypothesis = blank(base.hypothesis, (*base.hypothesis.candidates, candidate))
-    return Start(hypothesis, np.r_[base.z, start])
+    whole = not any(p.last for p in candidate.parameters)
+    return Start(replace(hypothesis, whole=whole), np.r_[base.z, start])
 
 
 def searched(start: Start) -> list[Start]:

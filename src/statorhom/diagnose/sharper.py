@@ -25,9 +25,11 @@ from statorhom.diagnose.explanations import (
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.mirrored import at_fitting_height
 from statorhom.diagnose.refit import Refit
-from statorhom.diagnose.stage_model import mesh_error, with_reference
+from statorhom.diagnose.stage_model import StageModel, mesh_error, with_reference
 from statorhom.diagnose.valleys import APART, FAR_BEHIND
 from statorhom.errors import StatorhomError
+from statorhom.model.affine import Materials
+from statorhom.model.broken.change import Change
 from statorhom.physics.action import Action
 
 MOST = 3  # explanations that get models of their own before a second effect is sought
@@ -63,8 +65,10 @@ def sharpened(explanation: Explanation, *, leads: bool = True) -> Explanation:
         explanation, found = found, _sharpened(found, around)
     found = replace(found, settled=True)
     cheap = _keeps_symmetry(found.refit)
-    # where every start needs a model of its own, what is good enough for a name is good enough
-    if found.adequacy_but_one > (WELL if cheap else ADEQUATE) or not (leads or cheap):
+    # where every start needs a model of its own, what is good enough for a name is good enough, but for what is so
+    # only because mixed modes say little
+    enough = found.adequacy_but_one > (WELL if cheap else ADEQUATE) and not found.refit.hypothesis.blurs
+    if enough or not (leads or cheap):
         return found
     deeper = at_fitting_height(_on_other_sides(found.refit))
     return found if deeper is found.refit else _sharpened(replace(found, refit=deeper), around)
@@ -133,14 +137,25 @@ def in_its_own_model(
     StatorhomError
         If no stator has these constants.
     """
-    stages, arcs = [], (*arcs, *_arcs(hypothesis.actions(z), around))
+    actions, stages = hypothesis.actions(z), []
+    arcs = (*arcs, *_arcs(actions, around))
     for stage in hypothesis.study.stages:
         materials = hypothesis.materials(stage, z)
-        near = with_reference(stage, materials, arcs)
+        near = with_reference(stage, materials, arcs, _examples(stage, materials, actions))
         if not mesh_known:
             near = near.with_error(mesh_error(stage.setup, near.ring, materials, stage.density))
         stages.append(near)
     return replace(hypothesis, study=hypothesis.study.with_stages(tuple(stages)), held=None)
+
+
+def _examples(
+    stage: StageModel, materials: Materials, actions: Sequence[Action]
+) -> dict[str, tuple[tuple[Change, ...]]]:
+    """What effects change in a stage, by the key of their training: a strong one's local fields are its own."""
+    here = (a for a in actions if a.touches(stage.name) and a.training is not None)
+    return {
+        a.training.key: (a.changes(stage.model.mesh, materials),) for a in here if a.training and a.changes
+    }
 
 
 def _arcs(actions: Sequence[Action], around: Sequence[float]) -> tuple[tuple[float, float], ...]:

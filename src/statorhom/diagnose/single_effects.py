@@ -25,7 +25,7 @@ from statorhom.diagnose.from_the_best import from_the_best
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.mirrored import at_fitting_height
 from statorhom.diagnose.mislabelled import worth_trying
-from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.refit import Refit, evaluated
 from statorhom.diagnose.refit_starts import (
     CHEAP,
     DEAR,
@@ -190,7 +190,19 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: floa
         others = [] if _holds(starts[0]) else _elsewhere(starts[0])
     if best is None:
         return None
-    return at_fitting_height(at_fitting_angle(min([best, *others], key=_objective), worth), worth)
+    return _whole(
+        at_fitting_height(at_fitting_angle(min([best, *others], key=_objective), worth), worth), worth
+    )
+
+
+def _whole(found: Refit, worth: float) -> Refit:
+    """With what is found last."""
+    if found.hypothesis.whole:
+        return found
+    hypothesis = replace(found.hypothesis, whole=True, held=None)
+    again = refitted(hypothesis, found.z, min(found.objective, worth))
+    better = again is not None and again.objective < found.objective
+    return again if again is not None and better else evaluated(hypothesis, found.z)
 
 
 def _will_do(found: Refit, known: float, *, far: bool) -> bool:

@@ -16,7 +16,7 @@ from statorhom.diagnose.ring_basis import RingBasis, RingModes, mark_of, ring_ba
 from statorhom.diagnose.scatter_weights import scatter_weights
 from statorhom.diagnose.side_by_side import workers
 from statorhom.diagnose.supported_slopes import HeldShapes
-from statorhom.diagnose.trained_basis import TrainedBasis, trained_basis
+from statorhom.diagnose.trained_basis import OWN_LEAST, Examples, TrainedBasis, trained_basis
 from statorhom.geometry.stator import StepGeometry
 from statorhom.identify.model_error import ModelError
 from statorhom.identify.stage_setup import StageSetup
@@ -56,6 +56,7 @@ class StageModel:
     error : mesh factors.
     density : of the mesh.
     arcs : widths (rad) and ratios at which a contact that is weaker over an arc is predicted as the mesh has it.
+    examples : key of a training → further examples of its changes, which the basis holds well.
     """
 
     setup: StageSetup
@@ -68,6 +69,7 @@ class StageModel:
     responses: Kept = field(default_factory=partial(Kept, RESPONSES), repr=False)
     _slopes: dict[bytes, dict[tuple[int, int], np.ndarray]] = field(default_factory=dict, repr=False)
     arcs: tuple[tuple[float, float], ...] = ()
+    examples: Mapping[str, Examples] = field(default_factory=dict)
     # what belongs to the reference and takes seconds
     memory: Memory = field(default_factory=Memory, repr=False)
     _trained: dict[tuple[str, ...], TrainedBasis] = field(default_factory=dict, repr=False)
@@ -204,6 +206,7 @@ class StageModel:
             found = trained_basis(self.broken, named)
             for one in sorted(trainings, key=lambda t: t.key):
                 found = found.trained(one.examples(self.model.mesh, self.reference), named)
+                found = found.trained(self.examples.get(one.key, ()), named, OWN_LEAST)
             self._trained[mark] = found
         return self._trained[mark]
 
@@ -279,12 +282,16 @@ def with_snapshots(stage: StageModel, materials: Sequence[Materials]) -> StageMo
 
 
 def with_reference(
-    stage: StageModel, materials: Materials, arcs: tuple[tuple[float, float], ...] = ()
+    stage: StageModel,
+    materials: Materials,
+    arcs: tuple[tuple[float, float], ...] = (),
+    examples: Mapping[str, Examples] | None = None,
 ) -> StageModel:
     """The stage at another reference, its mesh factors kept."""
     return replace(
         stage,
         arcs=arcs,
+        examples=examples or {},
         ring=stage.ring.extended([materials]),
         reference=materials,
         _last={},

@@ -20,7 +20,11 @@ from statorhom.model.broken.solve import solve_broken
 from statorhom.model.convergence import ModeKey
 from statorhom.model.harmonic import Harmonic
 
+Examples = Sequence[Sequence[Change]]  # changes at once, one example after the other
+
 LEAST = 3e-5  # relative frequency error below which a direction is left out
+# the same of an explanation's own changes: a deep soft strip has hundreds of directions above the other one
+OWN_LEAST = 1e-4
 OWN = 0.3  # share of the named modes from which on a mode is theirs
 
 
@@ -52,14 +56,18 @@ class TrainedBasis:
         return TrainedBasis(basis, columns)
 
     def trained(
-        self, examples: Sequence[Sequence[Change]], named: Mapping[ModeKey, tuple[Harmonic, float]]
+        self,
+        examples: Examples,
+        named: Mapping[ModeKey, tuple[Harmonic, float]],
+        least: float = LEAST,
     ) -> TrainedBasis:
         """With the responses of the named modes to some changes.
 
         Parameters
         ----------
-        examples : changes at once, one example after the other.
+        examples : what to hold.
         named : problem and frequency (Hz) of the named modes.
+        least : relative frequency error below which a direction is left out.
         """
         found = self
         for changes in examples:
@@ -67,7 +75,7 @@ class TrainedBasis:
             rows = [i for c in found.columns.values() for i in c.numbers]
             used = np.sum(modes.participation[rows] ** 2, axis=0) > OWN
             values, x = modes.eigenvalues[used], modes.coordinates[:, used]
-            found = trained_basis(enriched(found.basis, modes.coupled, values, x, LEAST), named)
+            found = trained_basis(enriched(found.basis, modes.coupled, values, x, least), named)
         return found
 
 

@@ -24,6 +24,7 @@ class EffectParameter:
     starts : values from which a refit sets out; the first one is where signatures are taken.
     absent : value without the effect, None where only a limit of the scale is.
     usual : of a detail that is carried as uncertainty and is no magnitude: what a study that leaves it open means.
+    last : whether refits of its effect begin with it as usual: one that has all free at once goes astray.
     negligible : distance from `absent` within which nothing is missing: a tolerance of what was typed.
     """
 
@@ -37,6 +38,7 @@ class EffectParameter:
     absent: float | None = 0.0
     usual: float | None = None
     negligible: float = 0.0
+    last: bool = False
 
     @property
     def located(self) -> bool:

@@ -20,12 +20,15 @@ from statorhom.physics.ring import ring_of
 from statorhom.study.regions import core_region
 from statorhom.study.study import StudyFiles
 
-WIDTH_RAD = 0.1745  # 10°
 USUAL_DEPTH = 0.5  # of the yoke
+USUAL_WIDTH = 10.0  # degrees
 TRAINED = 0.6  # strength of the examples: their fields are those of other strengths too
 # radius of a coupon's patch over the mean of its sides: 5 % and 95 % quantile of the prior, limits, and what is usual
 RADII, USUAL_RADIUS = (0.05, 0.25, 0.025, 0.5), 0.12
 DEPTHS = (0.25, 0.9, 0.1, 1.0)  # of the yoke: 5 % and 95 % quantile of the prior, and limits
+WIDTH_DEG = EffectParameter(
+    "width_deg", 5.0, 20.0, 2.0, 40.0, "log", (USUAL_WIDTH,), None, usual=USUAL_WIDTH, last=True
+)
 RATIO = EffectParameter("stiffness_ratio", 0.3, 2.5, 0.02, 12.0, "log", (0.6, 1.6), 1.0)
 
 
@@ -43,7 +46,7 @@ class LocalStiffness(Effect):
         Confusion("ovality", "several orders r split"),
     )
     note = (
-        "modulus of an axial strip of the yoke, 10° wide, over that of the core; its depth is found as well"
+        "modulus of an axial strip of the yoke over that of the core; its width and depth are found as well"
     )
 
     coupon_words = Words(
@@ -54,7 +57,7 @@ class LocalStiffness(Effect):
 
     tube_words = Words(
         "an axial strip of the tube's wall is stiffer or softer: a seam, a groove, a slot",
-        "modulus of an axial strip of the wall's outside, 10° wide, over that of the rest; its depth is found as well",
+        "modulus of an axial strip of the wall's outside over that of the rest; its width and depth are found as well",
         confused_with,
     )
 
@@ -62,7 +65,9 @@ class LocalStiffness(Effect):
         stages = [stage.name for stage in files.study.stages if stage.tests]
         ring = ring_of(files)
         depth = _depth(1e3 * ring.yoke)
-        return tuple(Candidate(self.name, name, (RATIO, angle(), depth), ring.region) for name in stages[:1])
+        return tuple(
+            Candidate(self.name, name, (RATIO, angle(), depth, WIDTH_DEG), ring.region) for name in stages[:1]
+        )
 
     def coupon_candidates(self, files: StudyFiles) -> tuple[Candidate, ...]:
         plan = plan_of(files)
@@ -76,7 +81,7 @@ class LocalStiffness(Effect):
         if "radius_mm" in values:
             found["radius_mm"] = values["radius_mm"]
         if "depth_mm" in values:
-            found |= {"width_deg": round(float(np.degrees(WIDTH_RAD)), 1), "depth_mm": values["depth_mm"]}
+            found |= {"width_deg": values["width_deg"], "depth_mm": values["depth_mm"]}
         return found
 
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
@@ -89,15 +94,15 @@ class LocalStiffness(Effect):
 
         def changes(mesh: HalfPitchMesh, materials: Materials) -> tuple[Change, ...]:
             core = yoke_layers(mesh, materials[core_region(materials)], mesh.outer_radius - yoke)
-            ratio, place, depth = values["stiffness_ratio"], values["angle_rad"], 1e-3 * values["depth_mm"]
-            return (strip(core, place, width=WIDTH_RAD, depth=depth, ratio=ratio),)
+            width, depth = np.radians(values["width_deg"]), 1e-3 * values["depth_mm"]
+            ratio, place = values["stiffness_ratio"], values["angle_rad"]
+            return (strip(core, place, width=width, depth=depth, ratio=ratio),)
 
         def examples(mesh: HalfPitchMesh, materials: Materials) -> tuple[tuple[Change, ...], ...]:
             core = yoke_layers(mesh, materials[core_region(materials)], mesh.outer_radius - yoke)
             places, depth = np.array([0.0, 0.5, 1.0]) * np.pi / mesh.slots, USUAL_DEPTH * yoke
-            return tuple(
-                (strip(core, place, width=WIDTH_RAD, depth=depth, ratio=TRAINED),) for place in places
-            )
+            width = np.radians(USUAL_WIDTH)
+            return tuple((strip(core, place, width=width, depth=depth, ratio=TRAINED),) for place in places)
 
         return Action(changes=changes, training=Training(self.name, examples))
 
