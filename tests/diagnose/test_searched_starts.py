@@ -105,6 +105,7 @@ def best_of(monkeypatch: pytest.MonkeyPatch, adequacy: float, worth: float, *, f
         "through_wide_valleys": lambda *_: other,
         "at_fitting_height": lambda best, _: best,
         "at_fitting_angle": lambda best, _: best,
+        "_whole": lambda best, _: best,
     }.items():
         monkeypatch.setattr(single_effects, name, value)
     one.hypothesis = None
