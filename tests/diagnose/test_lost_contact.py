@@ -74,9 +74,9 @@ class Search:
     def explained(self, r: Any, _: Any) -> Any:
         return self.explanation(-r.objective, r, adequacy=0.5 if r.objective < 30.0 else 0.0)
 
-    def model(self, hypothesis: Any, z: np.ndarray, *, mesh_known: bool = False, arcs: Any = ()) -> Any:
+    def model(self, hypothesis: Any, z: np.ndarray, *, quick: bool = False, arcs: Any = ()) -> Any:
         if arcs:
-            assert arcs == TRAINED and mesh_known
+            assert arcs == TRAINED and quick
             self.trained.append(z)
         return hypothesis
 

@@ -29,7 +29,7 @@ class Hypothetical:
 
 
 def found_at(z: np.ndarray, objective: float) -> Any:
-    study = SimpleNamespace(constants=SimpleNamespace(items=(KNOWN, VAGUE, RATIO)))
+    study = SimpleNamespace(constants=SimpleNamespace(items=(KNOWN, VAGUE, RATIO)), stages=())
     return SimpleNamespace(hypothesis=Hypothetical(study), z=z, objective=objective)
 
 
@@ -61,17 +61,17 @@ def test_what_breaks_the_symmetry_is_solved_on_the_other_side(monkeypatch: pytes
         refit.hypothesis = replace(refit.hypothesis, changes=lambda *_: ())
         return refit
 
-    def own_model(hypothesis: Any, z: np.ndarray, *, mesh_known: bool) -> Any:
+    def own_model(hypothesis: Any, z: np.ndarray, *, quick: bool) -> Any:
         # where the mesh is wrong by about as much, a look at the other side does not solve finer meshes
-        assert mesh_known
+        assert quick
         references.append(z[1])
         return hypothesis
 
-    def refitted(_hypothesis: Any, z: np.ndarray, worth: float) -> Any:
-        assert worth in (100.0, 20.0)
+    def refit(_hypothesis: Any, z: np.ndarray, rounds: int, worth: float) -> Any:
+        assert rounds == 1 and worth in (100.0, 20.0)
         return broken(z, 20.0 if z[1] > 0 else 90.0 + worth)
 
     monkeypatch.setattr(sharper, "in_its_own_model", own_model)
-    monkeypatch.setattr(sharper, "refitted", refitted)
+    monkeypatch.setattr(sharper, "refit", refit)
     assert sharper._on_other_sides(broken(np.array([0.2, -0.7, 0.1]), 100.0)).objective == 20.0
     assert references == [-sharper.ASIDE, sharper.ASIDE]

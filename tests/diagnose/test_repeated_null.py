@@ -138,3 +138,23 @@ def test_named_lines_of_a_stack_have_the_chance_that_noise_alone_gives(
     tenth = replace(found.signatures[0], gain=float(np.quantile(largest, 0.9)))
     again = with_repeated_null(base, Scan((tenth, *found.signatures[1:]), 1e-3), seed)
     assert again.p_value == pytest.approx(0.1, abs=0.06)
+
+
+@pytest.mark.usefixtures("unnamed")
+@pytest.mark.parametrize(("larger", "left", "expected"), [(5, 2, 3), (5, 0, 1), (module.WHOLLY + 1, 0, None)])
+def test_the_few_largest_gains_are_those_of_whole_refits(
+    monkeypatch: pytest.MonkeyPatch, larger: int, left: int, expected: int | None
+) -> None:
+    """Two draws of 200 reached a strip's gain of 131, for one step could not pair a line: 5 and 7 at their optima."""
+    refitted: list[int] = []
+
+    def at_optimum(_: Any, number: int) -> float:
+        refitted.append(number)
+        return 140.0 if number < left else 5.0
+
+    monkeypatch.setattr(module, "_largest", lambda _, number: 140.0 if number < larger else 3.0)
+    monkeypatch.setattr(module, "_largest_at_optimum", at_optimum)
+    base = declared(by_rank=False)
+    chance = with_repeated_null(base, parted(base, 131.0), 0).p_value
+    assert chance == pytest.approx(max(1e-3, (expected or 1 + larger) / (1 + module.DRAWS)))
+    assert refitted == ([] if expected is None else list(range(larger)))

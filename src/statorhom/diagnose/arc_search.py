@@ -142,7 +142,7 @@ def _in_model_of(
 ) -> tuple[float, np.ndarray] | None:
     """Objective and coordinates of the optimum near a point in its model; None where no body has its constants."""
     try:
-        own = in_its_own_model(hypothesis, z, mesh_known=True, around=ITSELF)
+        own = in_its_own_model(hypothesis, z, quick=True, around=ITSELF)
         there = followed_near(own, places, z)
         return None if there is None else (refit_objective(own, there), there)
     except (StatorhomError, KeyError):

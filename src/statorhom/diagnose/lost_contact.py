@@ -112,7 +112,7 @@ def _with_typical_winding(base: Refit, candidate: Candidate) -> Refit | None:
     z[_winding(base, candidate)] = 0.0
     try:
         declared = blank(base.hypothesis, base.hypothesis.candidates)
-        return evaluated(in_its_own_model(declared, z, mesh_known=True, arcs=TRAINED), z)
+        return evaluated(in_its_own_model(declared, z, quick=True, arcs=TRAINED), z)
     except (StatorhomError, KeyError):
         return None
 

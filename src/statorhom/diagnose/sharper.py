@@ -24,7 +24,7 @@ from statorhom.diagnose.explanations import (
 )
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.mirrored import at_fitting_height
-from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.refit import Refit, refit
 from statorhom.diagnose.stage_model import StageModel, mesh_error, with_reference
 from statorhom.diagnose.valleys import APART, FAR_BEHIND
 from statorhom.errors import StatorhomError
@@ -71,7 +71,9 @@ def sharpened(explanation: Explanation, *, leads: bool = True) -> Explanation:
     if enough or not (leads or cheap):
         return found
     deeper = at_fitting_height(_on_other_sides(found.refit))
-    return found if deeper is found.refit else _sharpened(replace(found, refit=deeper), around)
+    if deeper is found.refit:
+        return found
+    return min(found, _sharpened(replace(found, refit=deeper), around), key=lambda e: e.refit.objective)
 
 
 def at_its_own_materials(explanation: Explanation) -> Explanation:
@@ -119,16 +121,16 @@ def in_its_own_model(
     hypothesis: Hypothesis,
     z: np.ndarray,
     *,
-    mesh_known: bool = False,
+    quick: bool = False,
     arcs: tuple[tuple[float, float], ...] = (),
     around: tuple[float, ...] = AROUND,
 ) -> Hypothesis:
-    """With basis and, unless the old ones do, mesh factors of its own materials; to be paired anew.
+    """With basis and mesh factors of its own materials, and the local fields of its effects; to be paired anew.
 
     Parameters
     ----------
     hypothesis, z : what, and where.
-    mesh_known : whether the old mesh factors do.
+    quick : whether the old mesh factors do, and the local fields that a basis holds of any such effects.
     arcs : widths (rad) and ratios that a contact may be weaker over, beside those of the effects.
     around : times an effect's own arc, at which its contact is solved.
 
@@ -141,8 +143,8 @@ def in_its_own_model(
     arcs = (*arcs, *_arcs(actions, around))
     for stage in hypothesis.study.stages:
         materials = hypothesis.materials(stage, z)
-        near = with_reference(stage, materials, arcs, _examples(stage, materials, actions))
-        if not mesh_known:
+        near = with_reference(stage, materials, arcs, {} if quick else _examples(stage, materials, actions))
+        if not quick:
             near = near.with_error(mesh_error(stage.setup, near.ring, materials, stage.density))
         stages.append(near)
     return replace(hypothesis, study=hypothesis.study.with_stages(tuple(stages)), held=None)
@@ -221,8 +223,12 @@ def _is_news(rough: Refit, tried: Sequence[Refit]) -> bool:
     return rough.objective < least and all(np.linalg.norm(rough.z - o.z) > APART for o in tried)
 
 
-def _on_other_sides(best: Refit) -> Refit:
-    """The best of refits in which constants of which little was known start far away, one at a time."""
+def _on_other_sides(optimum: Refit) -> Refit:
+    """The best of refits in which constants of which little was known start far away, one at a time.
+
+    Models of strong effects' own local fields take minutes: all are compared without these.
+    """
+    begun = best = (_from_there(optimum, optimum.z) if _has_own_fields(optimum) else None) or optimum
     for i, constant in enumerate(best.hypothesis.study.constants.items):
         if not constant.log or constant.sd < VAGUE:
             continue
@@ -232,7 +238,12 @@ def _on_other_sides(best: Refit) -> Refit:
             again = _from_there(best, start)
             if again is not None and again.objective < best.objective - SETTLED:
                 best = again
-    return best
+    return optimum if best is begun else best
+
+
+def _has_own_fields(found: Refit) -> bool:
+    """Whether any step's basis knows the local fields of what the effects change."""
+    return any(stage.examples for stage in found.hypothesis.study.stages)
 
 
 def _from_there(best: Refit, start: np.ndarray) -> Refit | None:
@@ -241,10 +252,10 @@ def _from_there(best: Refit, start: np.ndarray) -> Refit | None:
     if _keeps_symmetry(best):
         return refitted(blank, start, worth=best.objective)
     try:
-        own = in_its_own_model(blank, start, mesh_known=True)
+        # modes are not paired anew: what leads further is followed once more
+        return refit(in_its_own_model(blank, start, quick=True), start, rounds=1, worth=best.objective)
     except (StatorhomError, KeyError):
         return None
-    return refitted(own, start, worth=best.objective)
 
 
 def _keeps_symmetry(found: Refit) -> bool:

@@ -35,7 +35,7 @@ RATIO = EffectParameter("stiffness_ratio", 0.3, 2.5, 0.02, 12.0, "log", (0.6, 1.
 class LocalStiffness(Effect):
     name = "local_stiffness"
     on_tubes = True
-    # a strip that is wider than assumed and less soft splits modes almost alike: seen on strips of 6 to 16°
+    # a strip that is wider and less soft splits modes almost alike, and no edge is sharp: seen on strips of 6 to 16°
     open_by_shape = 0.12
     summary = "an axial strip of the back of the core is stiffer or softer: a weld, notch, keyway or cut-out"
     citation = "Fox (1990), J. Sound Vib. 142, 227 (slightly imperfect rings)"
