@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from small_stators import MATERIALS, stator_mesh
 
+from statorhom.diagnose import trained_basis as trained_module
 from statorhom.diagnose.broken_response import responses
 from statorhom.diagnose.ring_basis import ring_basis
 from statorhom.diagnose.stage_model import StageModel, with_reference
@@ -137,6 +138,20 @@ def test_a_deep_soft_strip_needs_its_own_local_fields(stage: StageModel) -> None
         errors.append(max(abs(found[k].shift / r.shift - 1.0) for k, r in right.items() if r is not None))
     assert errors[0] > 0.1
     assert errors[1] < 0.06
+
+
+def test_own_local_fields_are_no_more_than_are_worth_their_time(
+    stage: StageModel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mesh = stage.model.mesh
+    core = yoke_layers(mesh, STACK["lamination"], mesh.outer_radius - 0.01)
+    deep = (strip(core, 0.4, width=0.26, depth=0.008, ratio=0.25),)
+    basis = trained_basis(stage.broken, stage._named)
+    sizes = []
+    for most in (10_000, 12, 0):
+        monkeypatch.setattr(trained_module, "OWN_MOST", most)
+        sizes.append(len(basis.with_own((deep,), stage._named).basis.values) - len(basis.basis.values))
+    assert sizes[0] > 12 >= sizes[1] > 0 == sizes[2]
 
 
 def test_a_wave_splits_its_own_order_alone(stage: StageModel) -> None:

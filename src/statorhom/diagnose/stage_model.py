@@ -16,7 +16,7 @@ from statorhom.diagnose.ring_basis import RingBasis, RingModes, mark_of, ring_ba
 from statorhom.diagnose.scatter_weights import scatter_weights
 from statorhom.diagnose.side_by_side import workers
 from statorhom.diagnose.supported_slopes import HeldShapes
-from statorhom.diagnose.trained_basis import OWN_LEAST, Examples, TrainedBasis, trained_basis
+from statorhom.diagnose.trained_basis import Examples, TrainedBasis, trained_basis
 from statorhom.geometry.stator import StepGeometry
 from statorhom.identify.model_error import ModelError
 from statorhom.identify.stage_setup import StageSetup
@@ -206,7 +206,7 @@ class StageModel:
             found = trained_basis(self.broken, named)
             for one in sorted(trainings, key=lambda t: t.key):
                 found = found.trained(one.examples(self.model.mesh, self.reference), named)
-                found = found.trained(self.examples.get(one.key, ()), named, OWN_LEAST)
+                found = found.with_own(self.examples.get(one.key, ()), named)
             self._trained[mark] = found
         return self._trained[mark]
 

@@ -23,8 +23,9 @@ from statorhom.model.harmonic import Harmonic
 Examples = Sequence[Sequence[Change]]  # changes at once, one example after the other
 
 LEAST = 3e-5  # relative frequency error below which a direction is left out
-# the same of an explanation's own changes: a deep soft strip has hundreds of directions above the other one
-OWN_LEAST = 1e-4
+# the same of an explanation's own changes: a deep soft strip has hundreds of directions above the other one, and what
+# each solution takes grows with the cube of them
+OWN_LEAST, COARSER, OWN_MOST = 1e-4, 2.0, 220
 OWN = 0.3  # share of the named modes from which on a mode is theirs
 
 
@@ -76,6 +77,20 @@ class TrainedBasis:
             used = np.sum(modes.participation[rows] ** 2, axis=0) > OWN
             values, x = modes.eigenvalues[used], modes.coordinates[:, used]
             found = trained_basis(enriched(found.basis, modes.coupled, values, x, least), named)
+        return found
+
+    def with_own(self, examples: Examples, named: Mapping[ModeKey, tuple[Harmonic, float]]) -> TrainedBasis:
+        """With the responses to what an explanation changes, as many of the largest as are worth their time.
+
+        Parameters
+        ----------
+        examples, named : as for `trained`.
+        """
+        least, size = OWN_LEAST, len(self.basis.values) + OWN_MOST
+        found = self.trained(examples, named, least)
+        while len(found.basis.values) > size:
+            least *= COARSER
+            found = self.trained(examples, named, least)
         return found
 
 
