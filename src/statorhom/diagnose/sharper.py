@@ -154,9 +154,10 @@ def _examples(
     stage: StageModel, materials: Materials, actions: Sequence[Action]
 ) -> dict[str, tuple[tuple[Change, ...]]]:
     """What effects change in a stage, by the key of their training: a strong one's local fields are its own."""
-    here = (a for a in actions if a.touches(stage.name) and a.training is not None)
     return {
-        a.training.key: (a.changes(stage.model.mesh, materials),) for a in here if a.training and a.changes
+        a.training.key: (a.changes(stage.model.mesh, materials),)
+        for a in actions
+        if a.training and a.changes and a.touches(stage.name)
     }
 
 
@@ -228,7 +229,8 @@ def _on_other_sides(optimum: Refit) -> Refit:
 
     Models of strong effects' own local fields take minutes: all are compared without these.
     """
-    begun = best = (_from_there(optimum, optimum.z) if _has_own_fields(optimum) else None) or optimum
+    without = _from_there(optimum, optimum.z) if _has_own_fields(optimum) else None
+    begun = best = without or optimum
     for i, constant in enumerate(best.hypothesis.study.constants.items):
         if not constant.log or constant.sd < VAGUE:
             continue

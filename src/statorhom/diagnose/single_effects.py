@@ -190,9 +190,8 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: floa
         others = [] if _holds(starts[0]) else _elsewhere(starts[0])
     if best is None:
         return None
-    return _whole(
-        at_fitting_height(at_fitting_angle(min([best, *others], key=_objective), worth), worth), worth
-    )
+    placed = at_fitting_height(at_fitting_angle(min([best, *others], key=_objective), worth), worth)
+    return _whole(placed, worth)
 
 
 def _whole(found: Refit, worth: float) -> Refit:
@@ -201,8 +200,9 @@ def _whole(found: Refit, worth: float) -> Refit:
         return found
     hypothesis = replace(found.hypothesis, whole=True, held=None)
     again = refitted(hypothesis, found.z, min(found.objective, worth))
-    better = again is not None and again.objective < found.objective
-    return again if again is not None and better else evaluated(hypothesis, found.z)
+    if again is None or again.objective >= found.objective:
+        return evaluated(hypothesis, found.z)
+    return again
 
 
 def _will_do(found: Refit, known: float, *, far: bool) -> bool:

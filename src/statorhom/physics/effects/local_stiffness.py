@@ -77,12 +77,9 @@ class LocalStiffness(Effect):
         )
 
     def reported(self, candidate: Candidate, values: Mapping[str, float]) -> dict[str, float | str]:
-        found = super().reported(candidate, values)
-        if "radius_mm" in values:
-            found["radius_mm"] = values["radius_mm"]
-        if "depth_mm" in values:
-            found |= {"width_deg": values["width_deg"], "depth_mm": values["depth_mm"]}
-        return found
+        # a patch has a radius, a strip the others
+        details = {name: values[name] for name in ("radius_mm", "width_deg", "depth_mm") if name in values}
+        return super().reported(candidate, values) | details
 
     def action(self, candidate: Candidate, values: Mapping[str, float], files: StudyFiles) -> Action:
         plan = plan_of(files)
