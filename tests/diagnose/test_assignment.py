@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from statorhom.diagnose.assignment import SHARP, assigned, blurs_of, mixed_cost
+from statorhom.diagnose.assignment import assigned
 from statorhom.diagnose.feature import LOST, LOST_UNNAMED
 from statorhom.diagnose.features import free_features
 from statorhom.diagnose.measured import MeasuredSplit, MeasuredTest
@@ -65,17 +65,3 @@ def test_lines_of_a_torn_doublet_stand_on_either_side_of_another_ones() -> None:
         MeasuredMode(i, str(i), f, order=4, axial=1) for i, f in enumerate((8783.0, 9090.0, 9351.0))
     )
     assert assigned(MeasuredTest(0, "t", "free", modes, False), modes, predicted) == (outer, inner, outer)
-
-
-def test_what_is_not_said_of_mixed_modes_is_charged() -> None:
-    """Or whatever mixes all modes would explain everything."""
-    mode = StatorMode(5620.0, 2, 2, "radial", 1.0, 2, 0, 0)
-    sharp, mixed = (
-        {KEY: PredictedMode(KEY, mode, float(np.log(5620.0)), 0j, 1e-3, blur=blur)} for blur in (0.0, 0.02)
-    )
-    assert blurs_of((KEY, KEY, None), sharp) == blurs_of((None,), mixed) == ()
-    assert blurs_of((KEY, KEY, None), mixed) == (0.02,)
-    # of the mean and of the split: ln of how much wider each is, twice
-    assert mixed_cost((0.02,)) == pytest.approx(4 * np.log(0.02 / SHARP), rel=1e-3)
-    assert mixed_cost((0.02,), 2.0) == pytest.approx(4 * np.log(0.01 / SHARP), rel=3e-3)
-    assert mixed_cost(()) == 0.0

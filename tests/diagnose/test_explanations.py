@@ -19,8 +19,9 @@ def features(residuals: list[float]) -> list[SimpleNamespace]:
 
 def explanation(constant: float, magnitude: float) -> Explanation:
     """Ten features that are met to 8 units of squared residual; a constant and an effect's magnitude."""
+    rows = features([np.sqrt(0.8)] * 10)
     hypothesis = SimpleNamespace(
-        constants=1, prior_weights=np.ones(2), missed=3.0, features=lambda _: features([np.sqrt(0.8)] * 10)
+        constants=1, prior_weights=np.ones(2), charge=lambda _: 3.0, features=lambda _: rows
     )
     objective = 8.0 + 3.0 + constant**2 + magnitude**2
     refit = Refit(hypothesis, np.array([constant, magnitude]), np.zeros((10, 2)), 8.0, objective)  # type: ignore[arg-type]
@@ -51,8 +52,9 @@ def with_residuals(residuals: list[float], losses: list[float] | None = None) ->
     """No constants at all."""
     lossy = [SimpleNamespace(kind="loss", residual=r) for r in losses or []]
     r = np.array([*residuals, *(f.residual for f in lossy)])
+    rows = features(residuals) + lossy
     hypothesis = SimpleNamespace(
-        constants=0, prior_weights=np.zeros(0), missed=0.0, features=lambda _: features(residuals) + lossy
+        constants=0, prior_weights=np.zeros(0), charge=lambda _: 0.0, features=lambda _: rows
     )
     misfit = float(r @ r)
     refit = Refit(hypothesis, np.zeros(0), np.zeros((len(r), 0)), misfit, misfit)  # type: ignore[arg-type]

@@ -34,7 +34,7 @@ def declared(errors: np.ndarray, *, lost: int | None = None, silent: Silence | N
     if silent is not None:
         left, slopes = np.append(left, silent.residual()), np.vstack([SLOPES, np.zeros(2)])
         features.append(Feature("split", "t", (9, 0, 0), 0.0, left[-1], 1.0, silence=silent))
-    hypothesis = SimpleNamespace(features=lambda _: features, prior_weights=np.ones(2), missed=0.0)
+    hypothesis = SimpleNamespace(features=lambda _: features, prior_weights=np.ones(2), charge=lambda _: 0.0)
     return Refit(hypothesis, z, slopes, float(left @ left), float(left @ left + z @ z))  # type: ignore[arg-type]
 
 
@@ -103,7 +103,9 @@ def test_one_gross_error_costs_no_more_than_it_costs_an_effect() -> None:
 def test_what_no_discrepancy_is_of_costs_what_it_costs_the_declared_model(feature: Feature) -> None:
     """A loss factor that a cable has doubled, and a line that no model has, are held down once and for all."""
     fits = Feature("frequency", "t", (3, 0, 0), 0.0, 0.0, 1e-3)
-    hypothesis = SimpleNamespace(features=lambda _: [feature, fits], prior_weights=np.ones(1), missed=0.0)
+    hypothesis = SimpleNamespace(
+        features=lambda _: [feature, fits], prior_weights=np.ones(1), charge=lambda _: 0.0
+    )
     objective = feature.residual**2
     base: Refit[Any] = Refit(hypothesis, np.zeros(1), np.zeros((2, 1)), objective, objective)  # type: ignore[arg-type]
     assert base.log_evidence - 3 < discrepancy_evidence(base) < base.log_evidence

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from statorhom.diagnose.refit import refit
+from statorhom.diagnose.mixed_modes import SHARP
+from statorhom.diagnose.refit import refit, refit_objective
 
 FLOOR = 10.0  # residual that no coordinate moves
 
@@ -19,6 +20,7 @@ class Valley:
     """Residuals (10 (e^z - 2), 10): the optimum is near ln 2, its objective a little over 100."""
 
     missed: float = 0.0
+    constants: int = 1
     held: Any = None
     asked: list[float] = field(default_factory=list)
 
@@ -35,6 +37,9 @@ class Valley:
     def residuals(self, z: np.ndarray) -> np.ndarray:
         self.asked.append(float(z[0]))
         return np.array([10 * (np.exp(z[0]) - 2), FLOOR])
+
+    def blurs(self, _: np.ndarray) -> tuple[float, ...]:
+        return ()
 
     def features(self, z: np.ndarray) -> list[SimpleNamespace]:
         return [SimpleNamespace(lost=False, residual=r) for r in self.residuals(z)]
@@ -116,3 +121,29 @@ def test_an_angle_that_tells_nothing_widens_no_interval_beyond_its_own_range() -
     magnitude, angle = np.sqrt(np.diag(best.covariance))
     assert magnitude < 0.03  # 10 e^z per unit
     assert angle < 1.5  # of a uniform coordinate: one
+
+
+@dataclass
+class Mixing(Valley):
+    """An effect whose residual is 10 / (1 + blur / SHARP), blur = SHARP z: the more it mixes, the less is asked."""
+
+    constants: int = 0
+
+    def residuals(self, z: np.ndarray) -> np.ndarray:
+        return np.array([10.0 / (1.0 + abs(z[0]))])
+
+    def blurs(self, z: np.ndarray) -> tuple[float, ...]:
+        return (SHARP * abs(float(z[0])),)
+
+    def paired(self, _: np.ndarray) -> Mixing:
+        return self
+
+
+def test_a_refit_pays_for_modes_that_it_mixes_on_its_way() -> None:
+    """Not only for those that were mixed where it started: without a charge it would end at its limit."""
+    best = refit(Mixing(), np.array([0.1]))  # type: ignore[type-var]
+    z = np.linspace(0.0, 10.0, 100001)
+    objective = 100.0 / (1.0 + z) ** 2 + 2.0 * np.log(1.0 + z**2)
+    assert best.objective == pytest.approx(objective.min(), abs=0.05)
+    assert best.z[0] == pytest.approx(z[objective.argmin()], rel=0.05)
+    assert best.objective == refit_objective(Mixing(), best.z)  # type: ignore[arg-type]

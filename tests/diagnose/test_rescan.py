@@ -28,7 +28,7 @@ def refit(
     orders = range(len(residuals)) if names is None else names
     rows = [SimpleNamespace(kind="frequency", test=test, key=(r, 0, 0)) for r in orders]
     hypothesis = SimpleNamespace(
-        prior_weights=weights, missed=0.0, residuals=lambda _: residuals, features=lambda _: rows
+        prior_weights=weights, charge=lambda _: 0.0, residuals=lambda _: residuals, features=lambda _: rows
     )
     misfit = float(residuals @ residuals)
     return Refit(hypothesis, np.zeros(jacobian.shape[1]), jacobian, misfit, misfit)  # type: ignore[arg-type]

@@ -19,6 +19,7 @@ from statorhom.diagnose.constants import Constants
 from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.memory import Memory
+from statorhom.diagnose.mixed_modes import mixed_cost
 from statorhom.model.convergence import ModeKey
 from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
@@ -60,9 +61,7 @@ class AnyHypothesis(ABC):
     candidates : effects added.
     left_out : groups of features (`Feature.group`) that the residuals do not see.
     held : test → partners of its modes; None to pair anew.
-    missed : -2 ln of the chance that the tests did not find the predicted modes that have no partner, and of how much
-        less is said of modes that are mixed with others.
-    blurs : of these (`PredictedMode.blur`).
+    missed : -2 ln of the chance that the tests did not find the predicted modes that have no partner.
     discrepancy : relative standard deviation added to all frequencies: makes the valleys wide enough to be found.
     trained : whether bases hold the local fields that an effect asks for (`Action.training`), and machines of other
         dimensions are solved. Both are dear, and what an effect promises can be told without them.
@@ -74,7 +73,6 @@ class AnyHypothesis(ABC):
     left_out: frozenset[tuple[str, ModeKey | None]] = frozenset()
     held: Mapping[str, Any] | None = None
     missed: float = 0.0
-    blurs: tuple[float, ...] = ()
     discrepancy: float = 0.0
     trained: bool = True
     whole: bool = True
@@ -92,6 +90,14 @@ class AnyHypothesis(ABC):
     @abstractmethod
     def features_of_all(self, z: FloatArray) -> list[Feature]:
         """Features whether seen or left out, at a held pairing; what wide valleys never see may be missing."""
+
+    def blurs(self, z: FloatArray) -> tuple[float, ...]:  # noqa: ARG002 - of cyclic bodies alone
+        """Of the modes that are seen, at a held pairing (`PredictedMode.blur`)."""
+        return ()
+
+    def charge(self, z: FloatArray) -> float:
+        """-2 ln of what the likelihood has beside residuals, at a held pairing."""
+        return self.missed + mixed_cost(self.blurs(z))
 
     @property
     def constants(self) -> int:

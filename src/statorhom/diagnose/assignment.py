@@ -19,8 +19,6 @@ WIDEST = 0.1  # of ln f: two lines that alone bear one name are a doublet's up t
 ROUNDING = 1e-9
 # of the distance up to which modes are partners: that of partners where most modes agree already
 NEAR = 0.2
-# usual relative standard deviation of a predicted mode, beside which one that is mixed is charged
-SHARP = 1e-3
 PARTED = 0.01  # of ln f: from which on the lines of a doublet are looked for where each of them is predicted
 
 Keys = tuple[ModeKey | None, ...]
@@ -122,14 +120,3 @@ def missed_cost(test: MeasuredTest, keys: Keys, predicted: Mapping[ModeKey, Pred
         if min(band) < mode.frequency_hz < max(band) and key not in keys
     ]
     return float(-2.0 * np.sum(np.log(chances)))
-
-
-def blurs_of(keys: Keys, predicted: Mapping[ModeKey, PredictedMode]) -> tuple[float, ...]:
-    """Of the partners that are mixed with modes of other names."""
-    partners = sorted({key for key in keys if key is not None and key in predicted})
-    return tuple(blur for key in partners if (blur := predicted[key].blur) > 0.0)
-
-
-def mixed_cost(blurs: Sequence[float], noise: float = 1.0) -> float:
-    """-2 ln of how much less is said of mixed modes, of their means and splits; `noise`: times the usual deviation."""
-    return float(sum(4.0 * np.log(np.hypot(SHARP * noise, blur) / (SHARP * noise)) for blur in blurs))

@@ -15,6 +15,7 @@ from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.frequency_slopes import by_frequency, slopes_of
 from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.diagnose.mixed_modes import mixed_charges
 from statorhom.errors import StatorhomError
 from statorhom.study.regions import core_region
 
@@ -61,6 +62,28 @@ def _(h: Hypothesis, z: FloatArray) -> FloatArray:
         columns[j] = np.where(leans, difference(h, z, j, start), columns[j])
     columns += [difference(h, z, j, start) for j in range(h.constants, len(z))]
     return np.array(columns).T.reshape(len(start), len(z))
+
+
+def charge_slopes(h: AnyHypothesis, z: FloatArray) -> FloatArray:
+    """Derivative of `mixed_charges`, (modes, coordinates): effects alone bring modes together.
+
+    A broken symmetry is solved at the reference whatever the constants are.
+    """
+    start = h.blurs(z)
+    slopes = np.zeros((len(start), len(z)))
+    if not any(start):
+        return slopes
+    charges, (low, high) = mixed_charges(start), h.limits()
+    for j in range(h.constants, len(z)):
+        if low[j] == high[j]:
+            continue  # it stays
+        moved = z.copy()
+        moved[j] += EFFECT_STEP if z[j] + EFFECT_STEP <= high[j] else -EFFECT_STEP
+        try:
+            slopes[:, j] = (mixed_charges(h.blurs(moved)) - charges) / (moved[j] - z[j])
+        except StatorhomError:
+            continue  # at the edge of what bodies exist
+    return slopes
 
 
 def _followed(h: Hypothesis, z: FloatArray) -> list[int]:

@@ -100,7 +100,7 @@ class Explanation(Generic[H]):
         r = self.refit
         effect = slice(r.hypothesis.constants, None)
         unusual = float(np.sum(r.hypothesis.prior_weights[effect] * r.z[effect] ** 2))
-        return r.objective - r.hypothesis.missed - unusual - float(np.sum(self._residuals[1] ** 2))
+        return r.objective - r.hypothesis.charge(r.z) - unusual - float(np.sum(self._residuals[1] ** 2))
 
     @property
     def _of_modes(self) -> np.ndarray:

@@ -54,7 +54,7 @@ class _Linear:
     deviations : (n,) in standard deviations; where no discrepancy is thought of, the residuals as they count.
     jacobian : (n, constants) of these.
     z, prior_weights : optimum and its prior's precision.
-    missed : as of the hypothesis.
+    charge : as of the hypothesis.
     """
 
     features: Sequence[Feature]
@@ -62,7 +62,7 @@ class _Linear:
     jacobian: FloatArray
     z: FloatArray
     prior_weights: FloatArray
-    missed: float
+    charge: float
 
     @classmethod
     def of(cls, base: Refit[AnyHypothesis]) -> _Linear:
@@ -71,8 +71,8 @@ class _Linear:
         deviations = [f.deviation if _may_be_off(f) else f.residual for f in features]
         steepness = np.array([f.steepness if _may_be_off(f) else 1.0 for f in features])
         jacobian = base.jacobian / np.maximum(steepness, LEAST_STEEPNESS)[:, None]
-        weights, missed = base.hypothesis.prior_weights, base.hypothesis.missed
-        return cls(features, np.array(deviations), jacobian, base.z, weights, missed)
+        weights, charge = base.hypothesis.prior_weights, base.hypothesis.charge(base.z)
+        return cls(features, np.array(deviations), jacobian, base.z, weights, charge)
 
     @property
     def _kinds(self) -> list[str]:
@@ -99,7 +99,7 @@ class _Linear:
         step = -np.linalg.solve(information + np.diag(self.prior_weights), gradient)
         left = deviations + J @ step
         z = self.z + step
-        objective = sum(map(partial(_cost, amplitudes), self.features, left)) + self.missed
+        objective = sum(map(partial(_cost, amplitudes), self.features, left)) + self.charge
         objective += float(self.prior_weights @ z**2)
         return float(-0.5 * objective + np.sum(np.log(weights)) + log_volume(information, self.prior_weights))
 

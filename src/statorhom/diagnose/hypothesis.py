@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
-from statorhom.diagnose.assignment import NEAR, Keys, assigned, blurs_of, missed_cost, mixed_cost
+from statorhom.diagnose.assignment import NEAR, Keys, assigned, missed_cost
 from statorhom.diagnose.constants import sinking_of
 from statorhom.diagnose.counted_planes import counted_at_planes
 from statorhom.diagnose.damping import (
@@ -37,7 +37,7 @@ from statorhom.diagnose.levels import (
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.memory import Memory
 from statorhom.diagnose.prediction import PredictedMode, acted_materials, predicted
-from statorhom.diagnose.sensor_response import SensorResponse, sensor_response
+from statorhom.diagnose.sensor_response import shifted_response
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.diagnose.supported import (
@@ -105,7 +105,7 @@ class Hypothesis(AnyHypothesis):
         tests : by name.
         """
         stages = [s.with_tests([tests.get(t.name, t) for t in s.tests]) for s in self.study.stages]
-        return replace(self, study=self.study.with_stages(tuple(stages)), held=None, missed=0.0, blurs=())
+        return replace(self, study=self.study.with_stages(tuple(stages)), held=None, missed=0.0)
 
     def paired(self, z: FloatArray) -> Hypothesis:
         """With the pairing held as it is at z: of near partners, or of far ones where these leave less.
@@ -131,7 +131,7 @@ class Hypothesis(AnyHypothesis):
         far, near = (rest._with_free(free, actions, reach) for reach in (1.0, NEAR))
         if far.held == near.held:
             return far
-        return min(far, near, key=lambda h: float(np.sum(h.residuals(z) ** 2)) + h.missed)
+        return min(far, near, key=lambda h: float(np.sum(h.residuals(z) ** 2)) + h.charge(z))
 
     def _with_free(
         self,
@@ -141,9 +141,8 @@ class Hypothesis(AnyHypothesis):
     ) -> Hypothesis:
         """With partners of free tests too, no farther away than `reach` says."""
         keys = {test.name: assigned(test, self.modes(test, actions), found, reach) for test, found in free}
-        blurs = tuple(blur for test, found in free for blur in blurs_of(keys[test.name], found))
-        missed = sum(missed_cost(test, keys[test.name], found) for test, found in free) + mixed_cost(blurs)
-        return replace(self, held={**(self.held or {}), **keys}, missed=missed, blurs=blurs)
+        missed = sum(missed_cost(test, keys[test.name], found) for test, found in free)
+        return replace(self, held={**(self.held or {}), **keys}, missed=missed)
 
     def _partners(
         self, stage: StageModel, test: MeasuredTest, found: Mapping[ModeKey, PredictedMode], z: FloatArray
@@ -176,6 +175,20 @@ class Hypothesis(AnyHypothesis):
             self._last.clear()
             self._last[point] = found
         return self._last[point]
+
+    def blurs(self, z: FloatArray) -> tuple[float, ...]:
+        """Of the free tests' modes that have a partner and are seen; as many wherever the pairing is held."""
+        assert self.held is not None
+        told = self.all_features(z)[1]
+        return tuple(
+            found[key].blur if key in found else 0.0
+            for stage, tests in told.values()
+            for test in stage.tests
+            if test.support == FREE
+            for found in [tests[test.name]]
+            for key in sorted({k for k in cast(Keys, self.held[test.name]) if k is not None})
+            if (test.name, key) not in self.left_out
+        )
 
     def features_with(self, z: FloatArray, moved: Told | None = None) -> tuple[list[Feature], Told]:
         """The same with predictions that were moved, where there are any."""
@@ -310,7 +323,7 @@ class Hypothesis(AnyHypothesis):
             if name.startswith("scatter") and name.endswith("re")
         }
         sensor = sum(a.sensor_kg for a in actions if a.touches(stage.name, test.name))
-        response = _sensor_response(stage, test)
+        response = shifted_response(stage, test)
         if sensor and response is not None:
             modes = {
                 k: replace(m, log_f=m.log_f - loading(test, k, response, sensor)) for k, m in modes.items()
@@ -335,10 +348,3 @@ class Hypothesis(AnyHypothesis):
         if stage.heights_m and test.shapes is not None and not self.in_wide_valleys:
             found += lean_features(test, measured, keys, modes, stage.heights_m)
         return with_rows(found, measured, keys)
-
-
-def _sensor_response(stage: StageModel, test: MeasuredTest) -> SensorResponse | None:
-    """Of a test that tells how poles move from plane to plane."""
-    if not test.shifts:
-        return None
-    return sensor_response(stage, np.unique(np.concatenate([s.z_m for s in test.shifts])).tolist())

@@ -10,8 +10,9 @@ import numpy.typing as npt
 from typing_extensions import TypeVar
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
-from statorhom.diagnose.derivatives import jacobian
+from statorhom.diagnose.derivatives import charge_slopes, jacobian
 from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.diagnose.mixed_modes import mixed_charges
 from statorhom.errors import StatorhomError
 
 FloatArray = npt.NDArray[np.float64]
@@ -86,6 +87,29 @@ def _precision(information: FloatArray, weights: FloatArray) -> FloatArray:
     return information + np.diag(np.where(weights == 0.0, UNIFORM, weights))
 
 
+@dataclass(frozen=True, eq=False)
+class _Point:
+    """What a refit makes as small as it can, at a point of a held pairing.
+
+    Parameters
+    ----------
+    z : the point.
+    residuals, charges : their squares are in it.
+    objective : with prior and missed modes.
+    """
+
+    z: FloatArray
+    residuals: FloatArray
+    charges: FloatArray
+    objective: float
+
+    @classmethod
+    def of(cls, hypothesis: AnyHypothesis, z: FloatArray) -> _Point:
+        residuals, charges = hypothesis.residuals(z), mixed_charges(hypothesis.blurs(z))
+        own = residuals @ residuals + charges @ charges + np.sum(hypothesis.prior_weights * z**2)
+        return cls(z, residuals, charges, float(own) + hypothesis.missed)
+
+
 def refit(hypothesis: _H, start: FloatArray, rounds: int = ROUNDS, worth: float = np.inf) -> Refit[_H]:
     """The nearest optimum.
 
@@ -124,9 +148,8 @@ def evaluated(hypothesis: _H, z: FloatArray) -> Refit[_H]:
         If no body has these constants.
     """
     paired = hypothesis.paired(z)
-    residuals = paired.residuals(z)
-    objective = _objective(residuals, z, paired.prior_weights) + paired.missed
-    return Refit(paired, z, jacobian(paired, z), float(residuals @ residuals), objective)
+    here = _Point.of(paired, z)
+    return Refit(paired, z, jacobian(paired, z), float(here.residuals @ here.residuals), here.objective)
 
 
 def refit_objective(hypothesis: AnyHypothesis, z: FloatArray) -> float:
@@ -137,52 +160,44 @@ def refit_objective(hypothesis: AnyHypothesis, z: FloatArray) -> float:
     StatorhomError
         If no body has these constants.
     """
-    paired = hypothesis.paired(z)
-    return _objective(paired.residuals(z), z, paired.prior_weights) + paired.missed
+    return _Point.of(hypothesis.paired(z), z).objective
 
 
 def _polished(hypothesis: _H, z: FloatArray, worth: float = np.inf) -> Refit[_H]:
     weights, (low, high) = hypothesis.prior_weights, hypothesis.limits()
-    z = np.clip(z, low, high)
-    residuals = hypothesis.residuals(z)
-    objective = _objective(residuals, z, weights)
+    here = _Point.of(hypothesis, np.clip(z, low, high))
     damping, vain = 1e-3, 0
-    J = jacobian(hypothesis, z)
+    J, C = jacobian(hypothesis, here.z), charge_slopes(hypothesis, here.z)
     for _ in range(ITERATIONS):
-        gradient = J.T @ residuals + weights * z
-        H = J.T @ J + np.diag(weights)
-        promised = (
-            objective + hypothesis.missed - gradient @ np.linalg.solve(H + 1e-9 * np.eye(len(H)), gradient)
-        )
+        gradient = J.T @ here.residuals + C.T @ here.charges + weights * here.z
+        H = J.T @ J + C.T @ C + np.diag(weights)
+        promised = here.objective - gradient @ np.linalg.solve(H + 1e-9 * np.eye(len(H)), gradient)
         vain = vain + 1 if promised > worth else 0
         if vain == PATIENCE:
             break
         # a place of which the data hardly tell would take all of the step, whatever the damping
         scale = np.maximum(np.diag(H), LEAST_CURVATURE)
-        improved = False
+        better = None
         for _ in range(6):
-            step = _step(H + damping * np.diag(scale), gradient, low - z, high - z)
+            step = _step(H + damping * np.diag(scale), gradient, low - here.z, high - here.z)
             step *= min(1.0, LARGEST_STEP / max(float(np.abs(step).max()), 1e-12))
-            trial = np.clip(z + step, low, high)
             try:
-                new = hypothesis.residuals(trial)
+                trial = _Point.of(hypothesis, np.clip(here.z + step, low, high))
             except (StatorhomError, KeyError):
                 damping = max(10 * damping, 1e-2)
                 continue
-            value = _objective(new, trial, weights)
-            if len(new) == len(residuals) and value < objective:
-                improved = True
+            if len(trial.residuals) == len(here.residuals) and trial.objective < here.objective:
+                better = trial
                 break
             damping = max(10 * damping, 1e-2)
-        if not improved:
+        if better is None:
             break
-        gain = objective - value
-        z, residuals, objective = trial, new, value
+        gain, here = here.objective - better.objective, better
         damping = damping / 10
-        J = jacobian(hypothesis, z)
+        J, C = jacobian(hypothesis, here.z), charge_slopes(hypothesis, here.z)
         if gain < SETTLED:
             break
-    return Refit(hypothesis, z, J, float(residuals @ residuals), objective + hypothesis.missed)
+    return Refit(hypothesis, here.z, J, float(here.residuals @ here.residuals), here.objective)
 
 
 def _step(H: FloatArray, gradient: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
@@ -199,7 +214,3 @@ def _step(H: FloatArray, gradient: FloatArray, low: FloatArray, high: FloatArray
         if held.all():
             break
     return step
-
-
-def _objective(residuals: FloatArray, z: FloatArray, weights: FloatArray) -> float:
-    return float(residuals @ residuals + np.sum(weights * z**2))

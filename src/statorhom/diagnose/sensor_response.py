@@ -17,6 +17,7 @@ import numpy as np
 from scipy.linalg import eigh
 
 from statorhom.diagnose.broken_response import Response, responses
+from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.trained_basis import TrainedBasis
 from statorhom.model.broken.attachments import lump
@@ -59,6 +60,13 @@ class SensorResponse:
             return MOST_DOUBT
         mass = float(np.ptp(shift)) / size
         return min(mass * float(np.ptp(dent)) / size, MOST_DOUBT)
+
+
+def shifted_response(stage: StageModel, test: MeasuredTest) -> SensorResponse | None:
+    """At the heights of a test; None where it does not tell how poles move from plane to plane."""
+    if not test.shifts:
+        return None
+    return sensor_response(stage, np.unique(np.concatenate([s.z_m for s in test.shifts])).tolist())
 
 
 def sensor_response(stage: StageModel, heights: Sequence[float]) -> SensorResponse:

@@ -67,7 +67,9 @@ def sharpened(explanation: Explanation, *, leads: bool = True) -> Explanation:
     cheap = _keeps_symmetry(found.refit)
     # where every start needs a model of its own, what is good enough for a name is good enough, but for what is so
     # only because mixed modes say little
-    enough = found.adequacy_but_one > (WELL if cheap else ADEQUATE) and not found.refit.hypothesis.blurs
+    enough = found.adequacy_but_one > (WELL if cheap else ADEQUATE) and not any(
+        found.refit.hypothesis.blurs(found.refit.z)
+    )
     if enough or not (leads or cheap):
         return found
     deeper = at_fitting_height(_on_other_sides(found.refit))
