@@ -11,8 +11,9 @@ from statorhom.model.broken.solve import BrokenModes
 from statorhom.model.harmonic import Harmonic
 
 LEAST = 0.2  # share of a doublet's plane that its two modes must keep to be called its own
-# Modes so near (of ln f) that have so much of a doublet's plane may be called by its name as well as its own.
-NEAR, MIXED = 0.08, 0.25
+# Modes so near (of ln f) that have so much of a doublet's plane may be called by its name as well as its own: hardly
+# from the first share on, surely from the second.
+NEAR, MIXED, SURELY = 0.08, 0.15, 0.35
 
 
 @dataclass(frozen=True)
@@ -115,4 +116,6 @@ def blur_of(modes: BrokenModes, place: Columns, pair: NearestPair) -> float:
     others = np.abs(away) < NEAR
     others[pair.modes] = False
     parts = np.sum(modes.participation[place.numbers][:, others] ** 2, axis=0)
-    return float(np.sqrt(parts @ away[others] ** 2)) if parts.sum() > MIXED else 0.0
+    sure = np.clip((parts.sum() - MIXED) / (SURELY - MIXED), 0.0, 1.0)
+    # without a jump, at which refits would stumble
+    return float(sure**2 * (3.0 - 2.0 * sure) * np.sqrt(parts @ away[others] ** 2))
