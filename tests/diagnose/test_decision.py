@@ -106,6 +106,19 @@ def test_few_modes_and_evidence_far_ahead_name() -> None:
     assert decide(replace(alone, over_nothing=7.9)) == "unknown"
 
 
+def test_what_few_modes_show_and_nothing_contradicts_is_named_where_all_else_is_far_behind() -> None:
+    """Of a wrong length unseen modes tell little: the modulus makes up for it in them too."""
+    little = replace(FEW, after=(0.1, 0.1, 1.8, 0.1, 0.1, 0.1))
+    far = replace(GOOD, held_out=little, over_nothing=35.0, over_discrepancy=35.0)
+    assert not little.improves
+    assert decide(far) == "named"
+    assert decide(replace(far, over_nothing=19.0)) == "ambiguous"
+    assert decide(replace(far, over_others=4.9)) == "ambiguous"
+    # something in no library is as strong
+    assert decide(replace(far, over_discrepancy=19.0)) == "ambiguous"
+    assert decide(replace(far, held_out=FEW)) == "ambiguous"
+
+
 def test_lines_beside_their_mates_name_where_rivals_are_behind() -> None:
     lines = replace(GOOD, held_out=replace(FALLS, of_lines=True))
     assert not lines.predicts

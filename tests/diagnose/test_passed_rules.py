@@ -22,7 +22,7 @@ EVIDENCE = st.builds(
     unpaired=st.booleans(),
     over_nothing=st.sampled_from([-3.0, 4.0, 6.0, 9.0, 21.0, 60.0]),
     over_others=st.sampled_from([0.5, 2.9, 4.0, 6.0, 50.0, float("inf")]),
-    over_discrepancy=st.sampled_from([-1.0, 2.0, 4.0, 6.0]),
+    over_discrepancy=st.sampled_from([-1.0, 2.0, 4.0, 6.0, 21.0]),
     held_out=st.none()
     | st.builds(
         lambda n, before, after, noise, lines: HeldOut(

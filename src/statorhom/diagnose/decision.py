@@ -92,7 +92,21 @@ class Evidence:
             return self.over_others > OVER_OTHERS and unseen.falls and not unseen.worsens
         if self.over_others <= FAR_OVER_OTHERS:
             return False
-        return unseen.improves and self.over_nothing > self.far_over_nothing
+        if unseen.improves:
+            return self.over_nothing > self.far_over_nothing
+        return self.beyond_doubt
+
+    @property
+    def beyond_doubt(self) -> bool:
+        """Whether unseen modes need not confirm it: they are few and contradict nothing, and all else is far behind.
+
+        What constants can make up for of a wrong length they make up for in unseen modes too. Effects of no library may
+        be as strong, so that something in none has to be as far behind as nothing.
+        """
+        unseen = self.held_out
+        if unseen is None or not too_few(unseen) or unseen.after_rms >= unseen.before_rms:
+            return False
+        return min(self.over_nothing, self.over_discrepancy) > FAR_OVER_NOTHING
 
     @property
     def far_over_nothing(self) -> float:

@@ -45,9 +45,11 @@ def rule_rows(e: Evidence, *, pair: bool) -> tuple[RuleRow, ...]:
 
 
 def _needs_more_evidence(e: Evidence) -> bool:
-    """Whether the held-out modes are predicted better but may be so by chance."""
+    """Whether the held-out modes are predicted better but may be so by chance, or by little."""
     unseen = e.held_out
-    return unseen is not None and not e.predicts and not unseen.of_lines and unseen.improves
+    if unseen is None or e.predicts or unseen.of_lines:
+        return False
+    return unseen.improves or (e.beyond_doubt and e.over_others > FAR_OVER_OTHERS)
 
 
 def _held_out(e: Evidence, *, far: bool) -> RuleRow:
