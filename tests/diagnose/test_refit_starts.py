@@ -24,19 +24,33 @@ def trial(rough: float | None) -> Any:
     return 1.0, [SimpleNamespace(rough=found)]
 
 
-def promising(monkeypatch: pytest.MonkeyPatch, *roughs: float | None) -> list[float | None]:
-    monkeypatch.setattr(refit_starts, "blank", lambda *_: None)
-    monkeypatch.setattr(refit_starts, "widened", lambda *_: SimpleNamespace(objective=100.0))
-    kept = refit_starts._promising(BASE, [trial(r) for r in roughs])
+def promising(*roughs: float | None) -> list[float | None]:
+    kept = refit_starts._promising(100.0, [trial(r) for r in roughs])
     return [None if one[1][0].rough is None else one[1][0].rough.objective for one in kept]
 
 
-def test_the_first_few_are_followed_whatever_they_gain(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert promising(monkeypatch, 99.0, 10.0, 98.0, 97.0, 96.0, None) == [10.0, 96.0, 97.0, 98.0]
+def test_the_first_few_are_followed_whatever_they_gain() -> None:
+    assert promising(99.0, 10.0, 98.0, 97.0, 96.0, None) == [10.0, 96.0, 97.0, 98.0]
 
 
-def test_others_are_followed_for_a_part_of_the_best_ones_gain(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert promising(monkeypatch, 10.0, 20.0, 30.0, 40.0, 81.0, 83.0) == [10.0, 20.0, 30.0, 40.0, 81.0]
+def test_others_are_followed_for_a_part_of_the_best_ones_gain() -> None:
+    assert promising(10.0, 20.0, 30.0, 40.0, 81.0, 83.0) == [10.0, 20.0, 30.0, 40.0, 81.0]
+
+
+def test_what_explains_less_than_its_absence_is_sought_all_over_the_prior(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """In wide valleys it was in none of its own: a soft end winding was given up for a stranger's suspension."""
+    narrow = SimpleNamespace(rough=None)
+    monkeypatch.setattr(refit_starts, "narrowed_starts", lambda _: [narrow])
+    monkeypatch.setattr(refit_starts, "_with_rough", lambda _, starts: starts)
+    usual, lost = (trial(19.0 + more) for more in (refit_starts.UNUSUAL, 14.0))
+    assert refit_starts._in_wide_valleys(BASE, 19.0, usual) == usual
+    sought = refit_starts._in_wide_valleys(BASE, 19.0, lost)
+    assert sought == (1.0, [narrow, *lost[1]])
+    # of it wide valleys say nothing, so that they are no reason to leave it out
+    others = [trial(rough) for rough in (18.0, 18.1, 18.2, 18.3, 18.95)]
+    assert refit_starts._promising(19.0, [sought, *others]) == [*others[:4], sought]
 
 
 def test_few_supports_go_with_all_the_constants() -> None:
@@ -130,6 +144,7 @@ def test_rivals_of_the_favourite_are_sought_all_over_the_prior(monkeypatch: pyte
     monkeypatch.setattr(refit_starts, "searched", lambda s: [f"{s.name} searched"])
     monkeypatch.setattr(refit_starts, "narrowed_starts", lambda s: [f"{s.name} searched, narrowed"])
     monkeypatch.setattr(refit_starts, "_with_rough", lambda _, starts: starts)
+    monkeypatch.setattr(refit_starts, "_without", lambda _: 100.0)
     monkeypatch.setattr(refit_starts, "_promising", lambda _, trials: trials)
     order: Any = list(refit_starts.in_order(BASE, scan, signatures[:2]))
     assert [starts for _, starts in order] == [

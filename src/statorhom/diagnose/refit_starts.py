@@ -25,6 +25,8 @@ PLACES = 6  # that are followed where an evaluation is cheap: a plate has more o
 WORTH = 2.0  # gain of the scan below which an effect is not refitted
 POOR = 3.0  # squared residual per feature above which another valley is looked for
 CHEAP, MIDDLING, DEAR = range(3)  # prices
+# of the objective in wide valleys, that an effect's size costs beside its absence
+UNUSUAL = 2.0
 AMOUNTS = 0.3, 8.0  # that a start's magnitude is multiplied by
 FIRST = 4  # cheap candidates that are followed whatever wide valleys say of them
 ALIKE_CHANGE = 0.9  # of unit changes' product, from which on they are one direction
@@ -88,16 +90,17 @@ def in_order(base: Refit, found: Scan, favourites: Sequence[Signature]) -> Itera
     cheap = [trial for trial in (*trials, *others) if price(trial) == CHEAP]
     alike = _of_different_effects([trial for trial in cheap if trial[0] >= ALIKE * first.gain], first)
     widest = [trial for trial in cheap if trial not in alike]
+    without = _without(base) if widest else np.inf
     searches: list[tuple[Callable[[Trial], Trial], Trial]] = [
         *((_all_over_the_prior, trial) for trial in begun),
         *((_narrowed, trial) for trial in alike),
-        *((partial(_in_wide_valleys, base), trial) for trial in widest),
+        *((partial(_in_wide_valleys, base, without), trial) for trial in widest),
     ]
     begins = [start for _, (_, starts) in searches for start in starts]
     searched = side_by_side(lambda search: search[0](search[1]), searches, shared_by(begins))
     near = len(begun) + len(alike)
     yield from searched[:near]
-    yield from _promising(base, searched[near:])
+    yield from _promising(without, searched[near:])
     yield from sorted((trial for trial in trials if price(trial) > CHEAP), key=price)
 
 
@@ -111,9 +114,19 @@ def _narrowed(trial: Trial) -> Trial:
     return gain, [*narrowed_starts(starts[0]), *starts]
 
 
-def _in_wide_valleys(base: Refit, trial: Trial) -> Trial:
+def _in_wide_valleys(base: Refit, without: float, trial: Trial) -> Trial:
+    """With starts in wide valleys; what explains less there than its absence is sought all over the prior."""
     gain, starts = trial
-    return gain, _with_rough(base, starts)
+    begun = _with_rough(base, starts)
+    if begun[0].rough is None or begun[0].rough.objective <= without + UNUSUAL:
+        return gain, begun
+    return gain, [*narrowed_starts(starts[0]), *begun]
+
+
+def _without(base: Refit) -> float:
+    """What is left without another effect, in wide valleys."""
+    found = widened(blank(base.hypothesis, base.hypothesis.candidates), base.z)
+    return np.inf if found is None else found.objective
 
 
 def _of_different_effects(trials: Sequence[Trial], first: Signature) -> list[Trial]:
@@ -136,18 +149,22 @@ def price(trial: Trial) -> int:
     return CHEAP if action.changes is None else MIDDLING
 
 
-def _promising(base: Refit, trials: Sequence[Trial]) -> list[Trial]:
-    """Those that wide valleys like, the best first: the first few, and what gains a part of what the best one does."""
+def _promising(without: float, trials: Sequence[Trial]) -> list[Trial]:
+    """Those that wide valleys like, the best first: the first few, and what gains a part of what the best one does.
+
+    After them what was sought in narrower ones, of which wide valleys say nothing.
+    """
 
     def rough(trial: Trial) -> float:
         return min(_rough_objective(start) for start in trial[1])
 
-    ordered = sorted(trials, key=rough)
-    without = widened(blank(base.hypothesis, base.hypothesis.candidates), base.z)
-    if without is None or not ordered:
-        return ordered
-    least = PART * (without.objective - rough(ordered[0]))
-    return [t for i, t in enumerate(ordered) if i < FIRST or without.objective - rough(t) >= least]
+    sought = [trial for trial in trials if trial[1][0].rough is None and np.isfinite(rough(trial))]
+    ordered = sorted((trial for trial in trials if trial not in sought), key=rough)
+    if np.isinf(without) or not ordered:
+        return [*ordered, *sought]
+    least = PART * (without - rough(ordered[0]))
+    liked = [t for i, t in enumerate(ordered) if i < FIRST or without - rough(t) >= least]
+    return [*liked, *sought]
 
 
 def starts_of(base: Refit, found: Scan, signature: Signature) -> list[Start]:
