@@ -19,7 +19,7 @@ from statorhom.diagnose.constants import Constants
 from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.memory import Memory
-from statorhom.diagnose.mixed_modes import mixed_cost
+from statorhom.diagnose.mixed_modes import charges_of
 from statorhom.model.convergence import ModeKey
 from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
@@ -91,13 +91,13 @@ class AnyHypothesis(ABC):
     def features_of_all(self, z: FloatArray) -> list[Feature]:
         """Features whether seen or left out, at a held pairing; what wide valleys never see may be missing."""
 
-    def blurs(self, z: FloatArray) -> tuple[float, ...]:  # noqa: ARG002 - of cyclic bodies alone
-        """Of the modes that are seen, at a held pairing (`PredictedMode.blur`)."""
-        return ()
+    def charges(self, z: FloatArray) -> FloatArray:
+        """Of the features that are seen, at a held pairing (`statorhom.diagnose.mixed_modes.charges_of`)."""
+        return charges_of(self.features(z))
 
     def charge(self, z: FloatArray) -> float:
         """-2 ln of what the likelihood has beside residuals, at a held pairing."""
-        return self.missed + mixed_cost(self.blurs(z))
+        return self.missed + float(np.sum(self.charges(z) ** 2))
 
     @property
     def constants(self) -> int:

@@ -15,7 +15,6 @@ from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.frequency_slopes import by_frequency, slopes_of
 from statorhom.diagnose.hypothesis import Hypothesis
-from statorhom.diagnose.mixed_modes import mixed_charges
 from statorhom.errors import StatorhomError
 from statorhom.study.regions import core_region
 
@@ -65,22 +64,21 @@ def _(h: Hypothesis, z: FloatArray) -> FloatArray:
 
 
 def charge_slopes(h: AnyHypothesis, z: FloatArray) -> FloatArray:
-    """Derivative of `mixed_charges`, (modes, coordinates): effects alone bring modes together.
+    """Derivative of the charges, (features, coordinates): effects alone bring modes together.
 
     A broken symmetry is solved at the reference whatever the constants are.
     """
-    start = h.blurs(z)
-    slopes = np.zeros((len(start), len(z)))
-    if not any(start):
+    charges, (low, high) = h.charges(z), h.limits()
+    slopes = np.zeros((len(charges), len(z)))
+    if not charges.any():
         return slopes
-    charges, (low, high) = mixed_charges(start), h.limits()
     for j in range(h.constants, len(z)):
         if low[j] == high[j]:
             continue  # it stays
         moved = z.copy()
         moved[j] += EFFECT_STEP if z[j] + EFFECT_STEP <= high[j] else -EFFECT_STEP
         try:
-            slopes[:, j] = (mixed_charges(h.blurs(moved)) - charges) / (moved[j] - z[j])
+            slopes[:, j] = (h.charges(moved) - charges) / (moved[j] - z[j])
         except StatorhomError:
             continue  # at the edge of what bodies exist
     return slopes

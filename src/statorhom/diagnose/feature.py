@@ -54,6 +54,7 @@ class Feature:
     sd : of their difference.
     lost : whether the model has no such mode: the residual is a penalty.
     rows : labels of the measured modes that it is of; empty where it is of none, or they are named by the key alone.
+    chance : of the way in which modes are called by its name (`PredictedMode.called`), told with its frequency.
     silence : of a split of which a single line was measured.
     """
 
@@ -66,6 +67,7 @@ class Feature:
     lost: bool = False
     rows: tuple[str, ...] = ()
     silence: Silence | None = None
+    chance: float = 1.0
 
     @property
     def residual(self) -> float:

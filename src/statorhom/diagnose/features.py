@@ -16,6 +16,7 @@ from statorhom.diagnose.assignment import Keys
 from statorhom.diagnose.feature import LOST, SINGLE, Feature, Silence
 from statorhom.diagnose.lost_lines import lost_lines
 from statorhom.diagnose.measured import MeasuredSplit, MeasuredTest
+from statorhom.diagnose.mixed_modes import cost_of
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.diagnose.sensor_response import SensorResponse
 from statorhom.identify.model_error import DEFAULT_RELATIVE_SD, ModelError
@@ -33,7 +34,6 @@ SPLIT_PART = 0.05  # of a split: shape and foot of what causes it are not known
 # of the splits of a test, root mean square: what of a local cause bends and what of it shears nearly cancels in some
 # mode, and the rest says more of its shape than of its size
 TYPICAL_PART = 0.1
-BLURRED = 4.0  # of what a mode's mean moves by when one of its lines is called otherwise: its split's change
 UNRESOLVED = 0.6  # of the loss factor: standard deviation of a split that shows one mode alone
 SHIFT_OWN, SHIFT_PART = 5e-5, 0.08  # of pole shifts from plane to plane: tangential motion, scatter
 
@@ -67,9 +67,12 @@ def free_features(
         if key is None:
             found += lost_lines(test, rows, modes, typical)
         elif key in predicted:
-            own = hypot(own_sd(error, key), discrepancy, predicted[key].blur)
-            shape = hypot(TYPICAL_PART * typical, BLURRED * predicted[key].blur)
-            found += _mode_features(test, rows, predicted[key], scatter, own, shape)
+            own = hypot(own_sd(error, key), discrepancy)
+            ways = [
+                _mode_features(test, rows, mode, scatter, own, TYPICAL_PART * typical)
+                for mode in predicted[key].called
+            ]
+            found += min(ways, key=cost_of) if len(ways) > 1 else ways[0]
         else:
             found += _vanished(test, rows, key)
     return found
@@ -135,7 +138,11 @@ def _mode_features(
         # images of one mode, or a doublet whose angles do not show: somewhere between
         sd = hypot(sd, log(high.frequency_hz / low.frequency_hz) / 2)
     whole = hypot(sd, own)
-    found = [Feature("frequency", test.name, key, mean, predicted.log_f, whole, rows=labels)]
+    found = [
+        Feature(
+            "frequency", test.name, key, mean, predicted.log_f, whole, rows=labels, chance=predicted.chance
+        )
+    ]
     if unresolved:
         return found
     if pairing is not None:
@@ -173,17 +180,30 @@ def _single(
     sd = hypot(measured_sd(row), own)
     own_row = (row.label,)
     if predicted.multiplicity == 1:
-        return [Feature("frequency", test.name, predicted.key, measured, log_f, sd, rows=own_row)]
+        return [
+            Feature(
+                "frequency",
+                test.name,
+                predicted.key,
+                measured,
+                log_f,
+                sd,
+                rows=own_row,
+                chance=predicted.chance,
+            )
+        ]
     # where the effect parts the two lines, it is one of them, a quarter of the split of λ to either side of the mean
     away = abs(predicted.split) / 4 if abs(predicted.split) > (row.loss_factor or 0.01) else 0.0
     log_f += away * tanh((measured - log_f) / (0.3 * away + 1e-9))
-    width = hypot(UNRESOLVED * (row.loss_factor or 0.01), BLURRED * predicted.blur)
+    width = UNRESOLVED * (row.loss_factor or 0.01)
     # tables leave modes out, and know no angles
     most, parts = (3.0, 2) if test.recorded else (1.8, 1)
     silence = Silence(abs(split), width, most, parts)
     unresolved = float(silence.residual())
     return [
-        Feature("frequency", test.name, predicted.key, measured, log_f, sd, rows=own_row),
+        Feature(
+            "frequency", test.name, predicted.key, measured, log_f, sd, rows=own_row, chance=predicted.chance
+        ),
         Feature("split", test.name, predicted.key, 0.0, unresolved, 1.0, rows=own_row, silence=silence),
     ]
 

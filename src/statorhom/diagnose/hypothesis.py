@@ -176,20 +176,6 @@ class Hypothesis(AnyHypothesis):
             self._last[point] = found
         return self._last[point]
 
-    def blurs(self, z: FloatArray) -> tuple[float, ...]:
-        """Of the free tests' modes that have a partner and are seen; as many wherever the pairing is held."""
-        assert self.held is not None
-        told = self.all_features(z)[1]
-        return tuple(
-            found[key].blur if key in found else 0.0
-            for stage, tests in told.values()
-            for test in stage.tests
-            if test.support == FREE
-            for found in [tests[test.name]]
-            for key in sorted({k for k in cast(Keys, self.held[test.name]) if k is not None})
-            if (test.name, key) not in self.left_out
-        )
-
     def features_with(self, z: FloatArray, moved: Told | None = None) -> tuple[list[Feature], Told]:
         """The same with predictions that were moved, where there are any."""
         values, actions = self.study.constants.values(z[: self.constants]), self.actions(z)

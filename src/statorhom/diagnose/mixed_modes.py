@@ -1,31 +1,26 @@
-"""What modes that are mixed with others say less: a charge that grows as an effect brings modes together."""
+"""What a name of mixed modes costs: of several ways of calling them the measured one is one, and had a chance."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
+from statorhom.diagnose.feature import Feature
+
 FloatArray = npt.NDArray[np.float64]
-# usual relative standard deviation of a predicted mode, beside which one that is mixed is charged
-SHARP = 1e-3
 
 
-def mixed_charges(blurs: Sequence[float], noise: float = 1.0) -> FloatArray:
-    """Charges (modes,) of which the squares are -2 ln of how much less is said of a mode's mean and split.
+def charges_of(features: Sequence[Feature]) -> FloatArray:
+    """Charges (features,) of which the squares are -2 ln of the chances.
 
-    Their sum with the squared residuals is what a normal likelihood makes of deviations that depend on the effect, so
-    that a refit can treat them as residuals: they rise from nothing with a slope.
-
-    Parameters
-    ----------
-    blurs : of the modes (`statorhom.diagnose.prediction.PredictedMode.blur`).
-    noise : times the usual deviation.
+    They rise from nothing with a slope as modes are mixed, so that a refit can treat them as residuals.
     """
-    return np.asarray(2.0 * np.sqrt(np.log(np.hypot(SHARP * noise, np.array(blurs)) / (SHARP * noise))))
+    chances = np.array([feature.chance for feature in features])
+    return np.sqrt(np.maximum(-2.0 * np.log(chances), 0.0))
 
 
-def mixed_cost(blurs: Sequence[float], noise: float = 1.0) -> float:
-    """Sum of the squares of `mixed_charges`."""
-    return float(np.sum(mixed_charges(blurs, noise) ** 2))
+def cost_of(features: Iterable[Feature]) -> float:
+    """Squared residuals and charges."""
+    return sum(f.residual**2 - 2.0 * float(np.log(f.chance)) for f in features)

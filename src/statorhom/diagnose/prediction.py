@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Hashable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from math import log
 
 import numpy as np
@@ -18,6 +18,7 @@ from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.study_model import StudyModel
 from statorhom.identify.stage_problem import NamedByMode, seen
 from statorhom.model.affine import Materials, hooke_coefficients
+from statorhom.model.broken.named_response import Way
 from statorhom.model.convergence import ModeKey
 from statorhom.model.stator_mode import StatorMode
 from statorhom.physics.action import Action
@@ -42,7 +43,8 @@ class PredictedMode(NamedByMode):
     shown : counts that a test's planes may show instead of its own, the likeliest first; empty where they are unknown.
     counted : what it is counted by, where that is not its own count.
     profile : (heights,) its order's radial motion at the stage's `heights_m`; None where nobody measured it.
-    blur : relative standard deviation of which mode is called by its name.
+    chance : that what is called by its name is what this says.
+    ways : what else may be.
     """
 
     key: ModeKey
@@ -58,7 +60,8 @@ class PredictedMode(NamedByMode):
     shown: tuple[int, ...] = ()
     counted: int | None = None
     profile: np.ndarray | None = None
-    blur: float = 0.0
+    chance: float = 1.0
+    ways: tuple[Way, ...] = ()
 
     @property
     def axial(self) -> int | None:
@@ -67,6 +70,13 @@ class PredictedMode(NamedByMode):
     @property
     def frequency_hz(self) -> float:
         return float(np.exp(self.log_f))
+
+    @property
+    def called(self) -> Iterator[PredictedMode]:
+        """Itself, and what it is in every other way of calling modes by its name."""
+        yield self
+        for way in self.ways:
+            yield replace(self, log_f=self.log_f + way.shift, split=way.split, chance=way.chance, ways=())
 
     @property
     def visibility(self) -> float:
@@ -166,7 +176,10 @@ def predicted(
             scattered=stage.scattered.get(key, 1.0),
             other_axial=response.other_axial,
             profile=own.get(key) if response.profile is None else response.profile,
-            blur=response.blur,
+            chance=response.chance,
+            ways=tuple(
+                replace(w, shift=w.shift - response.shift, split=one.split + w.split) for w in response.ways
+            ),
         )
     return found
 

@@ -12,7 +12,6 @@ from typing_extensions import TypeVar
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.derivatives import charge_slopes, jacobian
 from statorhom.diagnose.hypothesis import Hypothesis
-from statorhom.diagnose.mixed_modes import mixed_charges
 from statorhom.errors import StatorhomError
 
 FloatArray = npt.NDArray[np.float64]
@@ -105,7 +104,7 @@ class _Point:
 
     @classmethod
     def of(cls, hypothesis: AnyHypothesis, z: FloatArray) -> _Point:
-        residuals, charges = hypothesis.residuals(z), mixed_charges(hypothesis.blurs(z))
+        residuals, charges = hypothesis.residuals(z), hypothesis.charges(z)
         own = residuals @ residuals + charges @ charges + np.sum(hypothesis.prior_weights * z**2)
         return cls(z, residuals, charges, float(own) + hypothesis.missed)
 

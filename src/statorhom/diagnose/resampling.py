@@ -10,7 +10,6 @@ import numpy.typing as npt
 from statorhom.diagnose.decision import OVER_NOTHING, OVER_OTHERS
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.held_out_modes import WEIGHED
-from statorhom.diagnose.mixed_modes import mixed_cost
 from statorhom.diagnose.refit import Refit, log_volume
 from statorhom.model.convergence import ModeKey
 
@@ -83,9 +82,7 @@ def resampled_evidence(
     information = J.T @ J
     step = -np.linalg.solve(information + np.diag(weights + 1e-9), J.T @ e + weights * r.z)
     left, z = e + J @ step, r.z + step
-    blurs = r.hypothesis.blurs(r.z)
-    # what noisier data say of a sharp mode is less too, and rows that are left out are not charged
-    charge = r.hypothesis.missed + float(rows.mean()) * mixed_cost(blurs, noise)
+    charge = r.hypothesis.missed + float(np.sum(r.hypothesis.charges(r.z)[rows] ** 2))
     objective = float(left @ left + np.sum(weights * z**2)) + charge
     scale = -float(np.sum(prior > 0.0)) * float(np.log(width))
     return -0.5 * objective + log_volume(information, weights) + scale

@@ -34,6 +34,7 @@ from statorhom.physics.action import Action
 
 MOST = 3  # explanations that get models of their own before a second effect is sought
 ROUNDS = 3  # models of one explanation
+CERTAIN = 0.9  # chance of the way in which modes are called, from which on there is no other to speak of
 SETTLED = 2.0  # of the objective, that another one must have gained
 MOVED = (
     0.2  # of the logarithm of a stiffness: from its reference, at which what breaks the symmetry is solved
@@ -65,11 +66,10 @@ def sharpened(explanation: Explanation, *, leads: bool = True) -> Explanation:
         explanation, found = found, _sharpened(found, around)
     found = replace(found, settled=True)
     cheap = _keeps_symmetry(found.refit)
-    # where every start needs a model of its own, what is good enough for a name is good enough, but for what is so
-    # only because mixed modes say little
-    enough = found.adequacy_but_one > (WELL if cheap else ADEQUATE) and not any(
-        found.refit.hypothesis.blurs(found.refit.z)
-    )
+    # where every start needs a model of its own, what is good enough for a name is good enough, but where modes mix:
+    # with every other way of calling them there may be another valley
+    well = cheap or _mixes(found.refit)
+    enough = found.adequacy_but_one > (WELL if well else ADEQUATE)
     if enough or not (leads or cheap):
         return found
     deeper = at_fitting_height(_on_other_sides(found.refit))
@@ -94,6 +94,11 @@ def at_its_own_materials(explanation: Explanation) -> Explanation:
         if gained < SETTLED:
             break
     return explanation
+
+
+def _mixes(r: Refit) -> bool:
+    """Whether some mode's lines may be called otherwise."""
+    return any(feature.chance < CERTAIN for feature in r.hypothesis.features(r.z))
 
 
 def _has_moved(r: Refit) -> bool:

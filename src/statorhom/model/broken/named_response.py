@@ -7,13 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from statorhom.model.broken.basis import SymmetricBasis
+from statorhom.model.broken.mixed_names import ways_of
 from statorhom.model.broken.solve import BrokenModes
 from statorhom.model.harmonic import Harmonic
 
 LEAST = 0.2  # share of a doublet's plane that its two modes must keep to be called its own
-# Modes so near (of ln f) that have so much of a doublet's plane may be called by its name as well as its own: hardly
-# from the first share on, surely from the second.
-NEAR, MIXED, SURELY = 0.08, 0.15, 0.35
+NEAR = 0.08  # of ln f: up to which modes that are mixed may be called by each other's names
 
 
 @dataclass(frozen=True)
@@ -30,6 +29,15 @@ class Columns:
         return [self.cosine] if self.sine is None else [self.cosine, self.sine]
 
 
+@dataclass(frozen=True)
+class Way:
+    """What a named mode is if other broken modes are called by its name; `shift` and `split` as of `Response`."""
+
+    shift: float
+    split: complex
+    chance: float
+
+
 @dataclass(frozen=True, eq=False)
 class Response:
     """Of one named mode.
@@ -40,14 +48,16 @@ class Response:
     split : complex split b_r over the mean λ (`statorhom.modes.doublets.complex_split`).
     other_axial : count of node planes that it may show as well as its own.
     profile : (heights,) its order's radial motion along the axis; None where nobody asked.
-    blur : relative standard deviation of what is called by its name, where that is a mixture of modes of several names.
+    chance : that the modes which have most of it are those that are called by its name.
+    ways : the others, where modes are mixtures of several names.
     """
 
     shift: float
     split: complex
     other_axial: int | None = None
     profile: np.ndarray | None = None
-    blur: float = 0.0
+    chance: float = 1.0
+    ways: tuple[Way, ...] = ()
 
 
 def columns_of(basis: SymmetricBasis, space: Harmonic, frequency_hz: float) -> Columns | None:
@@ -85,8 +95,13 @@ def nearest_pair(modes: BrokenModes, place: Columns) -> NearestPair | None:
     chosen = np.sort(np.argsort(-weight)[: len(numbers)])
     if len(chosen) < len(numbers) or weight[chosen].min() < LEAST:
         return None
-    left, _, right = np.linalg.svd(parts[:, chosen])
-    return NearestPair(chosen, left @ right)
+    return NearestPair(chosen, nearest_rotation(parts[:, chosen]))
+
+
+def nearest_rotation(parts: np.ndarray) -> np.ndarray:
+    """Nearest orthonormal matrix (k, k) to named modes' parts (k, k) in broken ones."""
+    left, _, right = np.linalg.svd(parts)
+    return np.asarray(left @ right)
 
 
 def named_response(modes: BrokenModes, place: Columns) -> Response | None:
@@ -96,26 +111,26 @@ def named_response(modes: BrokenModes, place: Columns) -> Response | None:
 
 
 def response_of(modes: BrokenModes, place: Columns, pair: NearestPair) -> Response:
-    """Response of a named mode whose broken modes are known."""
-    values, blur = modes.eigenvalues[pair.modes], blur_of(modes, place, pair)
-    if len(values) == 1:
-        return Response(0.5 * float(np.log(values[0] / place.eigenvalue)), 0j, blur=blur)
-    effective = pair.rotation @ np.diag(values) @ pair.rotation.T
+    """Response of a named mode whose broken modes are known, with those that may be called by its name instead."""
+    own, *others = ways_of(modes.participation[place.numbers], _near(modes, pair), pair.modes)
+    shift, split = _seen(modes, place, own.modes)
+    ways = tuple(Way(*_seen(modes, place, other.modes), other.chance) for other in others)
+    return Response(shift, split, chance=own.chance, ways=ways)
+
+
+def _seen(modes: BrokenModes, place: Columns, chosen: np.ndarray) -> tuple[float, complex]:
+    """Shift and split of a named mode if these broken modes are what is called by its name."""
+    values = modes.eigenvalues[chosen]
     mean = float(values.mean())
-    split = complex(effective[0, 0] - effective[1, 1], 2 * effective[0, 1]) / mean
-    return Response(0.5 * float(np.log(mean / place.eigenvalue)), split, blur=blur)
+    shift = 0.5 * float(np.log(mean / place.eigenvalue))
+    if len(chosen) == 1:
+        return shift, 0j
+    rotation = nearest_rotation(modes.participation[place.numbers][:, chosen])
+    effective = rotation @ np.diag(values) @ rotation.T
+    return shift, complex(effective[0, 0] - effective[1, 1], 2 * effective[0, 1]) / mean
 
 
-def blur_of(modes: BrokenModes, place: Columns, pair: NearestPair) -> float:
-    """Root mean square distance (of ln f) of other modes that have much of a named one; none where it is hardly mixed.
-
-    Two modes of different orders that a lump brings together are half of each name, and which one is called by which
-    depends on what of them the measuring points see.
-    """
+def _near(modes: BrokenModes, pair: NearestPair) -> np.ndarray:
+    """Numbers of the broken modes that are no farther away than such as mix."""
     away = 0.5 * np.log(np.maximum(modes.eigenvalues, 1.0) / modes.eigenvalues[pair.modes].mean())
-    others = np.abs(away) < NEAR
-    others[pair.modes] = False
-    parts = np.sum(modes.participation[place.numbers][:, others] ** 2, axis=0)
-    sure = np.clip((parts.sum() - MIXED) / (SURELY - MIXED), 0.0, 1.0)
-    # without a jump, at which refits would stumble
-    return float(sure**2 * (3.0 - 2.0 * sure) * np.sqrt(parts @ away[others] ** 2))
+    return np.union1d(pair.modes, np.flatnonzero(np.abs(away) < NEAR))

@@ -1,0 +1,69 @@
+"""Which broken modes are called by a name: where an effect brings modes together, each is a mixture of several names.
+
+A heavy lump makes of (1, 1) and (4, 1) modes that are half of each. Which one is called by which name depends on what
+of them the measuring points see; their frequencies do not. So there are several sharp answers, each with a chance, and
+no blurred one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+SURE = 2  # power: a mode of which six tenths are one name's and four another's is called by the first 7 times of 10
+LEAST = 0.02  # chance, below which a mode is not called by a name, nor are several of them at once
+MOST = 5  # modes that may be called by one name
+
+
+@dataclass(frozen=True, eq=False)
+class Called:
+    """Broken modes that are called by a name.
+
+    Parameters
+    ----------
+    modes : their numbers, ascending.
+    chance : of that.
+    """
+
+    modes: np.ndarray
+    chance: float
+
+
+def ways_of(parts: np.ndarray, near: np.ndarray, usual: np.ndarray) -> list[Called]:
+    """Ways in which broken modes may be called by a name, the usual one first; their chances add up to one.
+
+    Parameters
+    ----------
+    parts : (k, modes) parts of the name's k modes in all broken ones, of which the squares are shares.
+    near : numbers of the broken modes that are near enough.
+    usual : numbers of those that have most of it.
+    """
+    chances = chances_of(np.sum(parts[:, near] ** 2, axis=0))
+    likeliest = near[np.argsort(-chances)[:MOST]]
+    able = {int(n): float(c) for n, c in zip(near, chances, strict=True) if n in likeliest and c > LEAST}
+    able |= {int(n): able.get(int(n), LEAST) for n in usual}
+    found = {tuple(sorted(usual.tolist())): _together(able, usual.tolist())}
+    found |= {tuple(sorted(some)): _together(able, some) for some in _some(able, len(parts))}
+    whole = sum(found.values())
+    kept = [(some, chance / whole) for some, chance in found.items()]
+    return [Called(np.array(some), c) for i, (some, c) in enumerate(kept) if i == 0 or c > LEAST]
+
+
+def chances_of(shares: np.ndarray) -> np.ndarray:
+    """That modes with these shares of a name are called by it, and not by the names of what else they are of."""
+    own, other = np.clip(shares, 0.0, 1.0) ** SURE, np.clip(1.0 - shares, 0.0, 1.0) ** SURE
+    return np.asarray(own / (own + other))
+
+
+def _some(able: dict[int, float], most: int) -> Iterator[tuple[int, ...]]:
+    """Choices of one mode up to `most`: a doublet's other line may be called otherwise."""
+    for count in range(1, most + 1):
+        yield from combinations(sorted(able), count)
+
+
+def _together(able: dict[int, float], chosen: tuple[int, ...] | list[int]) -> float:
+    """Chance that these and no others are called by the name."""
+    return float(np.prod([c if n in chosen else 1.0 - c for n, c in able.items()]))
