@@ -68,8 +68,7 @@ def sharpened(explanation: Explanation, *, leads: bool = True) -> Explanation:
     cheap = _keeps_symmetry(found.refit)
     # where every start needs a model of its own, what is good enough for a name is good enough, but where modes mix:
     # with every other way of calling them there may be another valley
-    well = cheap or _mixes(found.refit)
-    enough = found.adequacy_but_one > (WELL if well else ADEQUATE)
+    enough = found.adequacy_but_one > (WELL if cheap else ADEQUATE) and not _mixes(found.refit)
     if enough or not (leads or cheap):
         return found
     deeper = at_fitting_height(_on_other_sides(found.refit))
