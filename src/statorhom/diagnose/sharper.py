@@ -260,8 +260,9 @@ def _from_there(best: Refit, start: np.ndarray) -> Refit | None:
     if _keeps_symmetry(best):
         return refitted(blank, start, worth=best.objective)
     try:
-        # modes are not paired anew: what leads further is followed once more
-        return refit(in_its_own_model(blank, start, quick=True), start, rounds=1, worth=best.objective)
+        # Modes are not paired anew: what leads further is followed once more. The first steps from so far promise too
+        # little, and cost less than the model.
+        return refit(in_its_own_model(blank, start, quick=True), start, rounds=1)
     except (StatorhomError, KeyError):
         return None
 
