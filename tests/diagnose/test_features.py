@@ -14,6 +14,7 @@ from statorhom.diagnose.measured import MeasuredSplit, MeasuredTest, PlaneShifts
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.diagnose.sensor_response import SensorResponse
 from statorhom.identify.model_error import ModelError
+from statorhom.model.broken.named_response import Way
 from statorhom.model.stator_mode import StatorMode
 from statorhom.study.modal_table import MeasuredMode
 
@@ -87,36 +88,48 @@ def test_a_small_split_beside_large_ones_says_little_of_its_cause(recorded: bool
     assert residual_of_the_second(0.001) > 5.0
 
 
+MIXED = (2, 0, 0)
+
+
+def mixed_mode(*ways: Way) -> PredictedMode:
+    """A doublet with lines 5 % of λ apart, and what else may be called by its name."""
+    mode = StatorMode(1000.0, 2, 0, "radial", 1.0, 2, 0, 0)
+    return PredictedMode(MIXED, mode, float(np.log(1000.0)), 0.05 + 0j, 1e-3, chance=0.6, ways=ways)
+
+
 @pytest.mark.parametrize("recorded", [False, True])
-def test_of_a_mixed_mode_neither_mean_nor_split_is_certain(recorded: bool) -> None:
-    """Its lines may be called by another mode's name: it moves the mean by half, the split by twice as much."""
-    key = (2, 0, 0)
+def test_of_a_mixed_mode_the_way_counts_that_was_measured(recorded: bool) -> None:
+    """Its lines may be called by another mode's name; each way is as sharp as ever, and has a chance."""
     lines = tuple(MeasuredMode(i, str(i), 1000.0 + 40 * i, order=2, axial=0) for i in range(2))
-    test = MeasuredTest(0, "t", "free", lines, recorded, (MeasuredSplit("0", "1", 0.08 + 0j, 1e-4),))
-    mode = PredictedMode(
-        key, StatorMode(1000.0, 2, 0, "radial", 1.0, 2, 0, 0), float(np.log(1000.0)), 0j, 1e-3
+    test = MeasuredTest(0, "t", "free", lines, recorded, (MeasuredSplit("0", "1", 0.0784 + 0j, 1e-4),))
+    usual, other = (
+        free_features(test, lines, (MIXED, MIXED), {MIXED: mode}, {}, ModelError())
+        for mode in (mixed_mode(), mixed_mode(Way(0.0196, 0.0784 + 0j, 0.3), Way(0.1, 0j, 0.1)))
     )
-    for rows in (lines, lines[:1]):
-        sharp, mixed = (
-            free_features(test, rows, (key,) * len(rows), {key: replace(mode, blur=b)}, {}, ModelError())
-            for b in (0.0, 0.02)
-        )
-        assert [f.kind for f in mixed] == [f.kind for f in sharp]
-        assert mixed[0].sd == pytest.approx(0.02, rel=0.01) and sharp[0].sd < 3e-3
-        if len(rows) == 2:
-            assert mixed[1].sd == pytest.approx(0.08, rel=0.02) and sharp[1].sd < 0.02
+    assert [f.kind for f in other] == [f.kind for f in usual]
+    assert usual[0].chance == 0.6 and usual[0].residual > 8.0
+    assert other[0].chance == 0.3 and max(abs(f.residual) for f in other) < 0.1
+    assert other[0].sd == usual[0].sd < 3e-3
+
+
+def test_a_way_that_had_hardly_a_chance_is_taken_where_it_explains_more_than_that_costs() -> None:
+    lines = tuple(MeasuredMode(i, str(i), 975.0 + 50 * i, order=2, axial=0) for i in range(2))
+    test = MeasuredTest(0, "t", "free", lines, False)
+    away = Way(0.0025, 0.05 + 0j, 1e-3)
+    near, far = (
+        free_features(test, rows, (MIXED, MIXED), {MIXED: mixed_mode(away)}, {}, ModelError())[0].chance
+        for rows in (lines, [replace(m, frequency_hz=m.frequency_hz * 1.02) for m in lines])
+    )
+    assert near == 0.6
+    assert far == 1e-3
 
 
 def test_a_doublet_that_is_mixed_need_not_show_both_lines() -> None:
-    key = (2, 0, 0)
     line = MeasuredMode(0, "0", 1000.0, loss_factor=0.007, order=2, axial=0)
     test = MeasuredTest(0, "t", "free", (line,), True)
-    mode = PredictedMode(
-        key, StatorMode(1000.0, 2, 0, "radial", 1.0, 2, 0, 0), float(np.log(1000.0)), 0.05 + 0j, 1e-3
-    )
     silent = [
-        free_features(test, (line,), (key,), {key: replace(mode, blur=b)}, {}, ModelError())[1].predicted
-        for b in (0.0, 0.02)
+        free_features(test, (line,), (MIXED,), {MIXED: mode}, {}, ModelError())[1].predicted
+        for mode in (mixed_mode(), mixed_mode(Way(0.0, 0j, 0.2)))
     ]
     assert silent[0] > 2.5
     assert silent[1] < 1.0

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from statorhom.diagnose.mixed_modes import SHARP
 from statorhom.diagnose.refit import refit, refit_objective
 
 FLOOR = 10.0  # residual that no coordinate moves
@@ -38,8 +37,8 @@ class Valley:
         self.asked.append(float(z[0]))
         return np.array([10 * (np.exp(z[0]) - 2), FLOOR])
 
-    def blurs(self, _: np.ndarray) -> tuple[float, ...]:
-        return ()
+    def charges(self, _: np.ndarray) -> np.ndarray:
+        return np.zeros(2)
 
     def features(self, z: np.ndarray) -> list[SimpleNamespace]:
         return [SimpleNamespace(lost=False, residual=r) for r in self.residuals(z)]
@@ -125,15 +124,15 @@ def test_an_angle_that_tells_nothing_widens_no_interval_beyond_its_own_range() -
 
 @dataclass
 class Mixing(Valley):
-    """An effect whose residual is 10 / (1 + blur / SHARP), blur = SHARP z: the more it mixes, the less is asked."""
+    """An effect whose residual is 10 / (1 + z): the more it mixes, the less is asked, with a chance of 1 / (1 + z²)."""
 
     constants: int = 0
 
     def residuals(self, z: np.ndarray) -> np.ndarray:
         return np.array([10.0 / (1.0 + abs(z[0]))])
 
-    def blurs(self, z: np.ndarray) -> tuple[float, ...]:
-        return (SHARP * abs(float(z[0])),)
+    def charges(self, z: np.ndarray) -> np.ndarray:
+        return np.sqrt(2.0 * np.log1p(z**2))
 
     def paired(self, _: np.ndarray) -> Mixing:
         return self

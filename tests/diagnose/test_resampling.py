@@ -43,7 +43,7 @@ def test_a_linear_model_is_resampled_exactly() -> None:
     """At the optimum of a linear model: the evidence without rows is that of a fit without them."""
     rng = np.random.default_rng(2)
     J, data = rng.normal(size=(8, 2)), rng.normal(size=8)
-    hypothesis = SimpleNamespace(prior_weights=np.ones(2), missed=0.0, blurs=lambda _: ())
+    hypothesis = SimpleNamespace(prior_weights=np.ones(2), missed=0.0, charges=lambda _: np.zeros(8))
 
     def fitted(rows: np.ndarray) -> tuple[Refit, np.ndarray]:
         A, y = J[rows], data[rows]
@@ -67,7 +67,7 @@ def explanation(log_evidence: float, residuals: list[float]) -> SimpleNamespace:
     hypothesis = SimpleNamespace(
         prior_weights=np.ones(1),
         missed=0.0,
-        blurs=lambda _: (),
+        charges=lambda _: np.zeros(5),
         features=lambda _: [SimpleNamespace(observed=row) for row in rows],
         residuals=lambda _: np.array(residuals),
     )

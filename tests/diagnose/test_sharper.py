@@ -67,7 +67,7 @@ def test_a_rival_s_arc_is_solved_as_it_is_alone(
 ) -> None:
     """Each arc that is solved takes as long as all else."""
     asked: list[tuple[float, ...]] = []
-    refit: Any = SimpleNamespace(hypothesis=SimpleNamespace(blurs=lambda _: ()), z=None, objective=20.0)
+    refit: Any = SimpleNamespace(hypothesis=SimpleNamespace(features=lambda _: []), z=None, objective=20.0)
 
     def in_its_own_model(*_: Any, around: tuple[float, ...]) -> None:
         asked.append(around)

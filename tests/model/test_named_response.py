@@ -27,13 +27,27 @@ def response(turned: float, other: float = 0.04) -> Any:
 
 @pytest.mark.parametrize("turned", [0.0, 0.3])
 def test_a_mode_that_is_hardly_mixed_is_certain(turned: float) -> None:
-    assert response(turned).blur == 0.0
+    found = response(turned)
+    assert found.chance == pytest.approx(1.0, abs=0.02)
+    assert found.ways == ()
 
 
 def test_a_mode_that_is_half_another_name_s_may_be_called_by_it() -> None:
     """(1, 1) and (4, 1), 4 % apart, under a lump of 4 % of the mass: 46 and 45 % of one, 28 and 44 % of the other."""
-    assert response(0.7).blur == pytest.approx(0.04 * np.sin(0.7), rel=1e-9)
+    found = response(0.7)
+    assert found.chance + sum(way.chance for way in found.ways) == pytest.approx(1.0, abs=0.05)
+    assert (found.shift, found.split) == (0.0, 0j)
+    # the upper line instead of the lower one: sharp, and elsewhere
+    upper = max(found.ways, key=lambda way: abs(way.split))
+    mean = (1 + np.exp(0.08)) / 2
+    assert upper.shift == pytest.approx(0.5 * np.log(mean))
+    assert upper.split == pytest.approx((np.exp(0.08) - 1) / mean)
+    # or one line alone, the other of which is called otherwise
+    assert 0.0 in {way.split for way in found.ways}
+    assert upper.chance < found.chance
 
 
 def test_what_lies_far_away_is_called_by_no_other_name() -> None:
-    assert response(0.7, 1.1 * NEAR).blur == 0.0
+    far, near = response(0.7, 1.1 * NEAR), response(0.7)
+    assert max(abs(way.split) for way in far.ways) == 0.0
+    assert max(abs(way.split) for way in near.ways) > 0.05

@@ -1,0 +1,35 @@
+"""Which of several mixed modes are called by a name: chances that add up, the usual way first."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from statorhom.model.broken.mixed_names import LEAST, MOST, chances_of, ways_of
+
+
+def test_half_of_a_name_is_called_by_it_half_of_the_time() -> None:
+    assert chances_of(np.array([0.0, 0.5, 1.0])).tolist() == [0.0, 0.5, 1.0]
+    assert chances_of(np.array([0.6]))[0] == pytest.approx(0.36 / 0.52)
+
+
+@given(st.lists(st.floats(0.0, 1.0), min_size=2, max_size=8), st.sampled_from([1, 2]))
+def test_chances_add_up_and_the_usual_way_comes_first(shares: list[float], k: int) -> None:
+    parts = np.zeros((k, len(shares)))
+    parts[0] = np.sqrt(shares)
+    near, usual = np.arange(len(shares)), np.sort(np.argsort(-np.array(shares), kind="stable")[:k])
+    ways = ways_of(parts, near, usual)
+    assert ways[0].modes.tolist() == usual.tolist()
+    # what is hardly possible is left out: of each of its ways less than a fiftieth
+    most = MOST + MOST * (MOST - 1) // 2
+    assert 1.0 - most * LEAST <= sum(way.chance for way in ways) <= 1.0 + 1e-9
+    assert len({tuple(way.modes.tolist()) for way in ways}) == len(ways)
+    assert all(1 <= len(way.modes) <= k for way in ways)
+
+
+def test_a_pure_doublet_has_one_way() -> None:
+    parts = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.1]])
+    (way,) = ways_of(parts, np.arange(3), np.array([0, 1]))
+    assert way.chance == pytest.approx(1.0, abs=1e-3)
