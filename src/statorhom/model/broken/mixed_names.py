@@ -15,6 +15,7 @@ import numpy as np
 
 SURE = 2  # power: a mode of which six tenths are one name's and four another's is called by the first 7 times of 10
 LEAST = 0.02  # chance, below which a mode is not called by a name, nor are several of them at once
+DOUBT = 1e-4  # share of another name that every mode has: nothing is quite certain
 MOST = 5  # modes that may be called by one name
 
 
@@ -54,7 +55,7 @@ def ways_of(parts: np.ndarray, near: np.ndarray, usual: np.ndarray) -> list[Call
 
 def chances_of(shares: np.ndarray) -> np.ndarray:
     """That modes with these shares of a name are called by it, and not by the names of what else they are of."""
-    own, other = np.clip(shares, 0.0, 1.0) ** SURE, np.clip(1.0 - shares, 0.0, 1.0) ** SURE
+    own, other = np.clip(shares, 0.0, 1.0) ** SURE, np.clip(1.0 - shares, DOUBT, 1.0) ** SURE
     return np.asarray(own / (own + other))
 
 
