@@ -9,7 +9,7 @@ from example_evidence import FALLS, GOOD, GROUPS
 from hypothesis import given
 from hypothesis import strategies as st
 
-from statorhom.diagnose.decision import Evidence, decide
+from statorhom.diagnose.decision import FAR_OVER_NOTHING, Evidence, decide
 from statorhom.diagnose.held_out import HeldOut
 from statorhom.diagnose.passed_rules import rule_rows
 from statorhom.results.diagnosis import RuleRow
@@ -91,3 +91,14 @@ def test_modes_that_show_nothing_neither_pass_nor_fail() -> None:
     blind = HeldOut(GROUPS, (0.1,) * 6, (0.1,) * 6, (0.1,) * 6)
     assert row(replace(GOOD, held_out=blind), "held_out").passed is None
     assert row(replace(GOOD, held_out=None), "held_out").found is None
+
+
+def test_of_what_is_beyond_doubt_no_fall_is_asked() -> None:
+    """A row that says 10 % of 25 % and passes would be no explanation."""
+    few = HeldOut(GROUPS, (0.1, 0.1, 2.0, 0.1, 0.1, 0.1), (0.1, 0.1, 1.8, 0.1, 0.1, 0.1), (0.1,) * 6)
+    far = replace(GOOD, held_out=few, over_nothing=35.0, over_discrepancy=35.0)
+    found = row(far, "held_out")
+    assert found.passed and found.needed == 0.0 < found.found  # type: ignore[operator]
+    assert row(far, "nothing").needed == row(far, "discrepancy").needed == FAR_OVER_NOTHING
+    better = replace(few, after=(0.1, 0.1, 0.5, 0.1, 0.1, 0.1))
+    assert row(replace(GOOD, held_out=better), "held_out").needed == better.least_fall

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from statorhom.diagnose.decision import (
+    FAR_OVER_NOTHING,
     FAR_OVER_OTHERS,
     MAX_T_P,
     OVER_OTHERS,
@@ -22,7 +23,9 @@ def rule_rows(e: Evidence, *, pair: bool) -> tuple[RuleRow, ...]:
     pair : whether the best explanation has two effects, the second of which has to be confirmed.
     """
     far = _needs_more_evidence(e)
-    nothing = e.far_over_nothing if far else e.least_over_nothing
+    alone = far and e.held_out is not None and not e.held_out.improves  # all else has to be far behind
+    nothing = FAR_OVER_NOTHING if alone else e.far_over_nothing if far else e.least_over_nothing
+    discrepancy = FAR_OVER_NOTHING if alone else e.least_over_discrepancy
     others = FAR_OVER_OTHERS if far else OVER_OTHERS
     rows = [
         RuleRow(rule="chance", found=e.p_value, needed=MAX_T_P, passed=not e.by_chance),
@@ -31,7 +34,7 @@ def rule_rows(e: Evidence, *, pair: bool) -> tuple[RuleRow, ...]:
         RuleRow(
             rule="discrepancy",
             found=e.over_discrepancy,
-            needed=e.least_over_discrepancy,
+            needed=discrepancy,
             passed=e.in_library,
         ),
         _held_out(e, far=far),
@@ -60,7 +63,8 @@ def _held_out(e: Evidence, *, far: bool) -> RuleRow:
     return RuleRow(
         rule="held_out",
         found=1 - unseen.after_rms / unseen.before_rms,
-        needed=unseen.least_fall,
+        # where all else is far behind, it is enough that nothing contradicts
+        needed=unseen.least_fall if unseen.improves or not far else 0.0,
         # too few modes show anything: they cannot contradict, nor can they confirm
         passed=True if better else None if e.undecided else False,
     )

@@ -121,7 +121,7 @@ def _needed(r: RuleRow) -> str:
     if value is None:
         return "–" if r.passed is None else "yes"
     if r.rule == "held_out":
-        return f"{100 * value:.0f} % smaller"
+        return f"{100 * value:.0f} % smaller" if value > 0 else "not larger"
     if r.rule == "stability":
         return f"at least {100 * value:.0f} %"
     if r.rule in ODDS:
