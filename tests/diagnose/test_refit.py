@@ -37,11 +37,15 @@ class Valley:
         self.asked.append(float(z[0]))
         return np.array([10 * (np.exp(z[0]) - 2), FLOOR])
 
-    def charges(self, _: np.ndarray) -> np.ndarray:
-        return np.zeros(2)
+    def chances(self, _: np.ndarray) -> np.ndarray:
+        return np.ones(2)
+
+    def charges(self, z: np.ndarray) -> np.ndarray:
+        return np.sqrt(-2.0 * np.log(self.chances(z)))
 
     def features(self, z: np.ndarray) -> list[SimpleNamespace]:
-        return [SimpleNamespace(lost=False, residual=r) for r in self.residuals(z)]
+        rows = zip(self.residuals(z), self.chances(z), strict=True)
+        return [SimpleNamespace(lost=False, residual=r, chance=c) for r, c in rows]
 
 
 def found(worth: float) -> tuple[float, float, int]:
@@ -131,8 +135,8 @@ class Mixing(Valley):
     def residuals(self, z: np.ndarray) -> np.ndarray:
         return np.array([10.0 / (1.0 + abs(z[0]))])
 
-    def charges(self, z: np.ndarray) -> np.ndarray:
-        return np.sqrt(2.0 * np.log1p(z**2))
+    def chances(self, z: np.ndarray) -> np.ndarray:
+        return 1.0 / (1.0 + z**2)
 
     def paired(self, _: np.ndarray) -> Mixing:
         return self

@@ -63,15 +63,15 @@ def _(h: Hypothesis, z: FloatArray) -> FloatArray:
     return np.array(columns).T.reshape(len(start), len(z))
 
 
-def charge_slopes(h: AnyHypothesis, z: FloatArray) -> FloatArray:
+def charge_slopes(h: AnyHypothesis, z: FloatArray, charges: FloatArray) -> FloatArray:
     """Derivative of the charges, (features, coordinates): effects alone bring modes together.
 
-    A broken symmetry is solved at the reference whatever the constants are.
+    A broken symmetry is solved at the reference whatever the constants are. `charges` are those at z.
     """
-    charges, (low, high) = h.charges(z), h.limits()
     slopes = np.zeros((len(charges), len(z)))
     if not charges.any():
         return slopes
+    low, high = h.limits()
     for j in range(h.constants, len(z)):
         if low[j] == high[j]:
             continue  # it stays

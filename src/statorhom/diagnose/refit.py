@@ -12,6 +12,7 @@ from typing_extensions import TypeVar
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.derivatives import charge_slopes, jacobian
 from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.diagnose.mixed_modes import charges_of
 from statorhom.errors import StatorhomError
 
 FloatArray = npt.NDArray[np.float64]
@@ -104,7 +105,9 @@ class _Point:
 
     @classmethod
     def of(cls, hypothesis: AnyHypothesis, z: FloatArray) -> _Point:
-        residuals, charges = hypothesis.residuals(z), hypothesis.charges(z)
+        # a body's modes are predicted anew whenever its features are asked for
+        features = hypothesis.features(z)
+        residuals, charges = np.array([f.residual for f in features]), charges_of(features)
         own = residuals @ residuals + charges @ charges + np.sum(hypothesis.prior_weights * z**2)
         return cls(z, residuals, charges, float(own) + hypothesis.missed)
 
@@ -166,7 +169,7 @@ def _polished(hypothesis: _H, z: FloatArray, worth: float = np.inf) -> Refit[_H]
     weights, (low, high) = hypothesis.prior_weights, hypothesis.limits()
     here = _Point.of(hypothesis, np.clip(z, low, high))
     damping, vain = 1e-3, 0
-    J, C = jacobian(hypothesis, here.z), charge_slopes(hypothesis, here.z)
+    J, C = jacobian(hypothesis, here.z), charge_slopes(hypothesis, here.z, here.charges)
     for _ in range(ITERATIONS):
         gradient = J.T @ here.residuals + C.T @ here.charges + weights * here.z
         H = J.T @ J + C.T @ C + np.diag(weights)
@@ -193,7 +196,7 @@ def _polished(hypothesis: _H, z: FloatArray, worth: float = np.inf) -> Refit[_H]
             break
         gain, here = here.objective - better.objective, better
         damping = damping / 10
-        J, C = jacobian(hypothesis, here.z), charge_slopes(hypothesis, here.z)
+        J, C = jacobian(hypothesis, here.z), charge_slopes(hypothesis, here.z, here.charges)
         if gain < SETTLED:
             break
     return Refit(hypothesis, here.z, J, float(here.residuals @ here.residuals), here.objective)
