@@ -9,10 +9,9 @@ import pytest
 
 from statorhom.diagnose import supported_partners as module
 from statorhom.diagnose.measured import MeasuredShapes, MeasuredTest
-from statorhom.diagnose.supported import OWN, SupportedReference, _sinking
+from statorhom.diagnose.supported import OWN, SupportedReference
 from statorhom.diagnose.supported_partners import _mac, partners
 from statorhom.study.modal_table import MeasuredMode
-from statorhom.study.supports import FaceSupport, LineSupport
 
 ANGLES = np.arange(24) * np.pi / 12
 
@@ -76,22 +75,3 @@ def test_shapes_alone_tell_modes_that_do_not_mix() -> None:
     shapes = waves(2, 3)
     alike = _mac(measured(shapes, 1000.0, 1002.0), shapes, np.log([1000.0, 1002.0]))
     assert np.allclose(alike, [[1.0, 0.5], [0.5, 1.0]])
-
-
-def test_a_line_that_nothing_bends_sinks_into_the_metal() -> None:
-    def line(stiffness: float) -> LineSupport:
-        return LineSupport(
-            name="clamp",
-            kind="lines",
-            angles_deg=(0.0,),
-            declared="elastic",
-            normal_stiffness_n_per_m2=stiffness,
-        )
-
-    held = np.array([0.0, 0.5])
-    assert _sinking(line(1e9), held) == pytest.approx([0.0, 0.0], abs=0.3 * OWN)
-    # the same force in a rigid line: its springs hold the less of the energy the stiffer they are
-    rigid = [_sinking(line(k), held * 1e11 / k)[1] for k in (1e12, 1e14)]
-    assert rigid[0] == pytest.approx(rigid[1]) and rigid[0] > 5 * OWN
-    face = FaceSupport(name="clamp", kind="faces", faces=("lower_end",), declared="rigid")
-    assert _sinking(face, held).tolist() == [0.0, 0.0]

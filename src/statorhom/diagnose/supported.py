@@ -12,8 +12,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from statorhom.diagnose.features import own_sd
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode, material_vector
+from statorhom.diagnose.sinking import UNLIKE, held_shares, sinking
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.diagnose.supported_slopes import HeldShapes, held_shapes
 from statorhom.diagnose.trained_basis import TrainedBasis
@@ -28,14 +30,12 @@ from statorhom.model.supports import HeldPoints, support_on
 from statorhom.model.surface import surface_points
 from statorhom.modes.supported_names import name_supported
 from statorhom.physics.action import Action
+from statorhom.study.regions import core_region
 from statorhom.study.study import StudyFiles
 from statorhom.study.supports import FaceSupport, LineSupport, SupportKeys
 
 RIGID_PER_M2, RIGID_PER_M3 = 1e14, 1e16  # stiffness of what holds like a rock (N/m², N/m³)
 OWN = 3e-3  # relative model error of a supported frequency: clamps have a form
-# A line sinks into a metal of this modulus by what depends on its width and on the mesh, which leave it this uncertain:
-# for all modes alike, but for a part.
-METAL_PA, SINKING, UNLIKE = 2e11, 0.3, 0.3
 REACH = 2.0  # of a test's highest mode: how far partners are sought
 # springs whose shapes hold those of all others: part of the rigid stiffness, tangential ratio
 TRAININGS = tuple((part, ratio) for part in (1e-6, 1e-5, 1e-4, 1e-3, 1.0) for ratio in (0.3, 1.2))
@@ -156,33 +156,33 @@ def _solved(
     if support.ends is not None or support.points.stiffness is None:
         return None
     free = _free_basis(stage, test)
-    modes = solve_broken(free.basis, [_springs(stage, support.points), *more], tolerance=None)
+    springs = _springs(stage, support.points)
+    modes = solve_broken(free.basis, [springs, *more], tolerance=None)
     log_f = np.log(modes.frequencies_hz)
     shares = {key: _share(modes, place) for key, place in free.columns.items()}
-    held = _held_share(modes)
+    parts = held_shares(modes, springs)
+    held = np.asarray(parts.sum(axis=0))
     slopes = _shapes(stage, test, keys).slopes(modes, held, stage.reference)
-    sinking = _sinking(keys, held)
-    own = np.hypot(OWN, UNLIKE * sinking)
+    sinks = sinking(keys, parts, stage.reference[core_region(mesh.regions)].hooke)
+    own = np.hypot(_own(stage, shares), UNLIKE * sinks)
     if not shapes:
-        return SupportedReference(log_f, shares, held, slopes, own, sinking)
+        return SupportedReference(log_f, shares, held, slopes, own, sinks)
     if test.shapes is None:
         named = name_supported(modes, stage.model, stage.reference)
         return SupportedReference(
-            log_f, shares, held, slopes, own, sinking, None, tuple((m.order, m.axial) for m in named)
+            log_f, shares, held, slopes, own, sinks, None, tuple((m.order, m.axial) for m in named)
         )
     z, angles = (a.ravel() for a in np.meshgrid(test.shapes.z_m, test.shapes.angles_rad, indexing="ij"))
     motion = modes.motion(surface_points(mesh, angles, z))[:, 0]
     shape = (len(test.shapes.z_m), len(test.shapes.angles_rad), len(modes))
     radial = np.moveaxis(motion.reshape(shape), -1, 0)
-    return SupportedReference(log_f, shares, held, slopes, own, sinking, radial)
+    return SupportedReference(log_f, shares, held, slopes, own, sinks, radial)
 
 
-def _sinking(keys: SupportKeys, held: np.ndarray) -> np.ndarray:
-    """By how much the frequencies fall, relatively, where a line yields by a standard deviation of how it sinks in."""
-    if isinstance(keys, FaceSupport):
-        return np.zeros(len(held))
-    assert keys.normal_stiffness_n_per_m2 is not None
-    return np.asarray(SINKING * 0.5 * held * keys.normal_stiffness_n_per_m2 / METAL_PA)
+def _own(stage: StageModel, shares: Mapping[ModeKey, np.ndarray]) -> np.ndarray:
+    """Relative model error of the frequencies: a clamp has a form, and the free modes they are made of have a mesh."""
+    of_free = sum((share * own_sd(stage.error, key)) ** 2 for key, share in shares.items())
+    return np.asarray(np.sqrt(OWN**2 + of_free))
 
 
 def _shapes(stage: StageModel, test: MeasuredTest, keys: SupportKeys) -> HeldShapes:
@@ -224,14 +224,6 @@ def _free_basis(stage: StageModel, test: MeasuredTest) -> TrainedBasis:
 def _share(modes: BrokenModes, place: Columns) -> np.ndarray:
     energy = np.sum(modes.participation[place.numbers] ** 2, axis=0) * place.eigenvalue
     return np.asarray(np.minimum(energy / modes.eigenvalues, 1.0))
-
-
-def _held_share(modes: BrokenModes) -> np.ndarray:
-    """Share of the springs to the ground in the potential energy of every mode."""
-    own = modes.coupled.statics
-    motion = own.answers.motion @ modes.coordinates
-    energy = np.sum(motion * (own.stiffness @ motion), axis=0)
-    return np.asarray(np.clip(energy / modes.eigenvalues, 0.0, 1.0))
 
 
 def predicted_logs(
