@@ -10,7 +10,7 @@ from small_stage import stage_of
 from small_stators import stator_mesh
 
 from statorhom.diagnose.features import own_sd
-from statorhom.diagnose.sinking import sinking
+from statorhom.diagnose.sinking import held_shares, sinking
 from statorhom.diagnose.supported import OWN, SupportedReference, elastic_keys, supported_reference
 from statorhom.identify.model_error import ModelError
 from statorhom.materials.hooke import Hooke
@@ -18,6 +18,8 @@ from statorhom.materials.isotropic import Isotropic
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.mesh import uniform
 from statorhom.model.affine import Material, assemble
+from statorhom.model.broken.attachments import lump, springs
+from statorhom.model.broken.solve import solve_broken
 from statorhom.model.supported_modes import solve_supported
 from statorhom.model.supports import support_on
 from statorhom.study.supports import FaceSupport, LineSupport
@@ -89,3 +91,23 @@ def test_a_supported_mode_is_known_no_better_than_the_free_modes_it_is_made_of()
     assert np.max(share) > 0.5
     of_mode = own_sd(coarse, (2, 0, 0)) ** 2 - own_sd(ModelError(), (2, 0, 0)) ** 2
     assert np.all(added >= share**2 * of_mode * (1 - 1e-9))
+
+
+@pytest.mark.parametrize("ratio", [0.7, 0.0])
+def test_shares_of_springs_are_their_energies(ratio: float) -> None:
+    """Also of springs that hold nothing tangentially, whose motion the coupled modes do not know."""
+    stage = stage_of(("stack",), 9000.0)
+    keys = RIGID.model_copy(
+        update={"declared": "elastic", "normal_stiffness_n_per_m2": 1e10, "tangential_ratio": ratio}
+    )
+    held = springs(stage.model.mesh, support_on(stage.model.mesh, keys).points)
+    attached = [held, lump(stage.model.mesh, 0.3, 0.02, 0.05)]
+    modes = solve_broken(stage.below(5000.0).basis, attached, tolerance=None)
+    motion = modes.motion(held.points)
+    energy = np.einsum(
+        "pdm,pdm->dm", motion, (held.stiffness @ motion.reshape(-1, len(modes))).reshape(motion.shape)
+    )
+    found = held_shares(modes, attached)
+    assert found[0] == pytest.approx((energy[0] + energy[1]) / modes.eigenvalues, rel=1e-3, abs=1e-6)
+    assert found[1] == pytest.approx(energy[2] / modes.eigenvalues, rel=1e-3, abs=1e-6)
+    assert np.all(found[1] == 0.0) == (ratio == 0.0)

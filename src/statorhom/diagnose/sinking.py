@@ -8,6 +8,8 @@ stack.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from statorhom.materials.hooke import Hooke
@@ -44,9 +46,24 @@ def _moduli(core: Hooke) -> np.ndarray:
     return np.array([METAL_PA, min(METAL_PA, AXIAL * np.sqrt(tz * rz))])
 
 
-def held_shares(modes: BrokenModes, held: Attachment) -> np.ndarray:
-    """(2, modes) share of springs to the ground in the potential energy of every mode, across the axis and along it."""
-    motion = modes.motion(held.points).reshape(len(held.stiffness), -1)
-    energy = (motion * (held.stiffness @ motion)).reshape(len(held.points), 3, -1).sum(axis=0)
+def held_shares(modes: BrokenModes, attached: Sequence[Attachment]) -> np.ndarray:
+    """(2, modes) share of springs to the ground in the potential energy of every mode, across the axis and along it.
+
+    Parameters
+    ----------
+    modes : with what is attached.
+    attached : the springs first.
+    """
+    stiffness = attached[0].stiffness
+    motion = _motion(modes, attached)
+    energy = (motion * (stiffness @ motion)).reshape(len(attached[0].points), 3, -1).sum(axis=0)
     parts = np.array([energy[0] + energy[1], energy[2]])
     return np.asarray(np.clip(parts / modes.eigenvalues, 0.0, 1.0))
+
+
+def _motion(modes: BrokenModes, attached: Sequence[Attachment]) -> np.ndarray:
+    """(m, modes) of the springs' points, for which modes were coupled unless nothing holds some of them."""
+    held, coupled = attached[0], modes.coupled.statics
+    if len(coupled) == sum(len(a.stiffness) for a in attached):
+        return np.asarray((coupled.answers.motion @ modes.coordinates)[: len(held.stiffness)])
+    return modes.motion(held.points).reshape(len(held.stiffness), -1)

@@ -160,7 +160,7 @@ def _solved(
     modes = solve_broken(free.basis, [springs, *more], tolerance=None)
     log_f = np.log(modes.frequencies_hz)
     shares = {key: _share(modes, place) for key, place in free.columns.items()}
-    parts = held_shares(modes, springs)
+    parts = held_shares(modes, [springs, *(c for c in more if isinstance(c, Attachment))])
     held = np.asarray(parts.sum(axis=0))
     slopes = _shapes(stage, test, keys).slopes(modes, held, stage.reference)
     sinks = sinking(keys, parts, stage.reference[core_region(mesh.regions)].hooke)
