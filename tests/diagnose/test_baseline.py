@@ -33,6 +33,7 @@ def chosen(monkeypatch: pytest.MonkeyPatch, *valleys: SimpleNamespace) -> tuple[
         "stage_model": lambda *_: None,
         "Hypothesis": lambda study: study,
         "wide_optima": lambda *_, **__: list(valleys),
+        "with_other_sides": lambda _, wide, *__: wide,
         "_settled": settle,
         "nothing": lambda found: found,
         "_wide_objective": lambda found: found.own_wide,

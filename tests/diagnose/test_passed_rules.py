@@ -82,7 +82,8 @@ def test_more_is_asked_where_the_declared_model_is_adequate_or_few_modes_show_it
     few = HeldOut(GROUPS[:1], (0.3,), (0.2,), (0.15,))
     assert few.improves
     assert not few.falls
-    assert row(replace(GOOD, held_out=few), "nothing").needed == 20.0
+    assert row(replace(GOOD, held_out=few), "nothing").needed == 8.0
+    assert row(replace(GOOD, held_out=few), "discrepancy").needed == 5.0
     assert row(replace(GOOD, held_out=few), "others").needed == 5.0
     assert row(replace(GOOD, held_out=few, over_others=float("inf")), "nothing").needed == 8.0
 

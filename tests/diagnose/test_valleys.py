@@ -10,7 +10,7 @@ import pytest
 
 from statorhom.diagnose import valleys as module
 from statorhom.diagnose.hypothesis import Hypothesis
-from statorhom.diagnose.valleys import wide_optima
+from statorhom.diagnose.valleys import wide_optima, with_other_sides
 
 ROWS = 20
 
@@ -37,3 +37,28 @@ def test_more_points_are_followed_while_none_fits(monkeypatch: pytest.MonkeyPatc
     assert followed(monkeypatch, [poor] * 10, 3, 8) == 8
     assert followed(monkeypatch, [poor, good] + [poor] * 8, 3, 8) == 3
     assert followed(monkeypatch, [poor] * 10, 3, None) == 3
+
+
+def test_a_deeper_valley_on_another_side_of_a_vague_constant_is_found(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Of a bent valley: the first constant has to leave first before the second gains anything."""
+    starts: list[np.ndarray] = []
+
+    def refitted(_: Any, z: np.ndarray, worth: float) -> Any:
+        assert worth == 41.0  # of the best so far
+        starts.append(z.copy())
+        # whoever starts at a positive second constant ends in the deeper valley
+        found = np.array([3.0, 2.0, 0.0]) if z[1] > 1 else np.array([0.0, 0.0, 0.0])
+        return SimpleNamespace(z=found, objective=29.0 if z[1] > 1 else 41.0)
+
+    monkeypatch.setattr(module, "refitted", refitted)
+    items = [
+        SimpleNamespace(log=log, sd=sd) for log, sd in ((True, 1.2), (True, 1.5), (False, 2.0), (True, 0.3))
+    ]
+    blank: Any = Hypothesis(SimpleNamespace(constants=SimpleNamespace(items=items)))  # type: ignore[arg-type]
+    found: Any = [SimpleNamespace(z=np.zeros(3), objective=41.0)]
+    assert [r.objective for r in with_other_sides(blank, found, [0, 1, 2, 3])] == [29.0, 41.0]
+    # a ratio and what is known are left where they are
+    assert [np.flatnonzero(z).tolist() for z in starts] == [[0], [0], [1], [1]]
+    assert with_other_sides(blank, found, [0]) == found

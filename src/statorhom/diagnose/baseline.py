@@ -16,7 +16,7 @@ from statorhom.diagnose.prediction import acted_materials, with_rules
 from statorhom.diagnose.refit import Refit, evaluated, refit
 from statorhom.diagnose.stage_model import StageModel, mesh_error, stage_model, with_reference
 from statorhom.diagnose.study_model import StudyModel
-from statorhom.diagnose.valleys import MOST, trials_around, wide_optima
+from statorhom.diagnose.valleys import MOST, trials_around, wide_optima, with_other_sides
 from statorhom.errors import IdentificationError, StatorhomError
 from statorhom.geometry.tested_object import RingGeometry
 from statorhom.identify.settings import Settings
@@ -128,7 +128,8 @@ def _with_step(
     stage = stage_model(setup, tests, snapshots, settings.density)
     study = study.with_stages((*study.stages, stage))
     # constants of earlier steps stay while new ones are sought
-    wide = wide_optima(Hypothesis(study), trials, most=MOST)[:FOLLOWED]
+    wide = wide_optima(Hypothesis(study), trials, most=MOST)
+    wide = with_other_sides(Hypothesis(study), wide, places)[:FOLLOWED]
     found: list[Refit[Hypothesis]] = []
     for one in (w for w in wide if w.objective <= wide[0].objective + ALIKE):
         # what a coarse mesh is wrong by differs from valley to valley: none is the best before that is known

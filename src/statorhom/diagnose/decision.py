@@ -14,11 +14,12 @@ from statorhom.diagnose.held_out import HeldOut
 Verdict = Literal["none", "named", "ambiguous", "unknown"]
 MAX_T_P = 0.01
 OVER_NOTHING, OVER_OTHERS = 5.0, 3.0  # of log evidence
-# The same where the declared model misses nothing by more than chance: as much and ln of the number of effects, any of
-# which may have found something in the noise.
-OVER_ADEQUATE = 8.0
-# The same where too few modes show the effect for held-out ones to confirm it.
-FAR_OVER_NOTHING, FAR_OVER_OTHERS = 20.0, 5.0
+# The same where the declared model misses nothing by more than chance, or where too few modes show the effect for
+# held-out ones to confirm it: as much and ln of the number of effects, any of which may have found something in the
+# noise. Of rivals and of something in no library few modes tell it apart by more, too.
+OVER_ADEQUATE, FAR_OVER_OTHERS = 8.0, 5.0
+# The same where held-out modes do not confirm it at all.
+FAR_OVER_NOTHING = 20.0
 NEAR_RIVAL = 10.0  # of log evidence: up to which a rival and the best are compared in models of their own
 AS_IT_SHOULD = 0.1  # chance of a misfit from which on there is nothing (more) to explain
 STABLE = 0.8
@@ -93,7 +94,7 @@ class Evidence:
         if self.over_others <= FAR_OVER_OTHERS:
             return False
         if unseen.improves:
-            return self.over_nothing > self.far_over_nothing
+            return self.over_nothing > OVER_ADEQUATE and self.over_discrepancy > FAR_OVER_OTHERS
         return self.beyond_doubt
 
     @property
@@ -107,11 +108,6 @@ class Evidence:
         if unseen is None or not too_few(unseen) or unseen.after_rms >= unseen.before_rms:
             return False
         return min(self.over_nothing, self.over_discrepancy) > FAR_OVER_NOTHING
-
-    @property
-    def far_over_nothing(self) -> float:
-        """Log evidence that is asked for where few modes show it; less where no other effect explains any of it."""
-        return FAR_OVER_NOTHING if np.isfinite(self.over_others) else OVER_ADEQUATE
 
     @property
     def sound(self) -> bool:

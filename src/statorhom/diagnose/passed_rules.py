@@ -6,6 +6,7 @@ from statorhom.diagnose.decision import (
     FAR_OVER_NOTHING,
     FAR_OVER_OTHERS,
     MAX_T_P,
+    OVER_ADEQUATE,
     OVER_OTHERS,
     STABLE,
     Evidence,
@@ -24,8 +25,8 @@ def rule_rows(e: Evidence, *, pair: bool) -> tuple[RuleRow, ...]:
     """
     far = _needs_more_evidence(e)
     alone = far and e.held_out is not None and not e.held_out.improves  # all else has to be far behind
-    nothing = FAR_OVER_NOTHING if alone else e.far_over_nothing if far else e.least_over_nothing
-    discrepancy = FAR_OVER_NOTHING if alone else e.least_over_discrepancy
+    nothing = FAR_OVER_NOTHING if alone else OVER_ADEQUATE if far else e.least_over_nothing
+    discrepancy = FAR_OVER_NOTHING if alone else FAR_OVER_OTHERS if far else e.least_over_discrepancy
     others = FAR_OVER_OTHERS if far else OVER_OTHERS
     rows = [
         RuleRow(rule="chance", found=e.p_value, needed=MAX_T_P, passed=not e.by_chance),
@@ -35,7 +36,7 @@ def rule_rows(e: Evidence, *, pair: bool) -> tuple[RuleRow, ...]:
             rule="discrepancy",
             found=e.over_discrepancy,
             needed=discrepancy,
-            passed=e.in_library,
+            passed=e.over_discrepancy > discrepancy,
         ),
         _held_out(e, far=far),
         RuleRow(rule="adequacy", found=e.adequacy, needed=ADEQUATE, passed=e.adequacy > ADEQUATE),

@@ -26,7 +26,7 @@ from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.mirrored import at_fitting_height
 from statorhom.diagnose.refit import Refit, refit
 from statorhom.diagnose.stage_model import StageModel, mesh_error, with_reference
-from statorhom.diagnose.valleys import APART, FAR_BEHIND
+from statorhom.diagnose.valleys import APART, ASIDE, FAR_BEHIND, SETTLED, VAGUE
 from statorhom.errors import StatorhomError
 from statorhom.model.affine import Materials
 from statorhom.model.broken.change import Change
@@ -35,13 +35,10 @@ from statorhom.physics.action import Action
 MOST = 3  # explanations that get models of their own before a second effect is sought
 ROUNDS = 3  # models of one explanation
 CERTAIN = 0.9  # chance of the way in which modes are called, from which on there is no other to speak of
-SETTLED = 2.0  # of the objective, that another one must have gained
 MOVED = (
     0.2  # of the logarithm of a stiffness: from its reference, at which what breaks the symmetry is solved
 )
 WORSE = 10.0  # of the objective, by which a model of its own is worse than the common one
-VAGUE = 1.0  # prior standard deviation of a logarithm from which on a constant may be far on either side
-ASIDE = 1.5  # prior standard deviations to either side where such a constant is tried
 AROUND = 1 / 1.1, 1.1  # times its own arc, at which a contact that is lost over one is solved
 ITSELF = (1.0,)  # the same of a rival: each arc that is solved takes as long as all else
 BEHIND = 150.0  # log evidence by which others are too far behind for that

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import product
 
 import numpy as np
 from scipy.stats import norm, qmc
@@ -25,6 +26,9 @@ MOST, FITTING = 48, 0.25
 MANY = 24  # points that are worth a process
 APART = 1.0  # prior standard deviations between starts
 FAR_BEHIND = 20.0  # of the objective in wide valleys: what stays so far behind is no other optimum
+VAGUE = 1.0  # prior standard deviations of a logarithm from which on a constant may be far on either side
+ASIDE = 1.5  # prior standard deviations to either side where such a constant is tried
+SETTLED = 2.0  # of the objective, that another optimum must have gained
 NO_START = "no start of the declared model could be fitted; check masses and tables"
 SPREAD = 1.1  # of the prior: how far materials to try lie apart
 
@@ -92,6 +96,31 @@ def wide_optima(
     if not found:
         raise IdentificationError(NO_START)
     return different(found)
+
+
+def with_other_sides(blank: _H, wide: Sequence[Refit[_H]], places: Sequence[int]) -> list[Refit[_H]]:
+    """Optima in wide valleys and a deeper one, if there is one on other sides of some constants; the best first.
+
+    Two hundred points leave most of the corners of five constants out: the best of them may lie in a valley that
+    strains the prior of one that hardly matters there.
+
+    Parameters
+    ----------
+    blank : the declared model.
+    wide : optima in wide valleys, the best first.
+    places : of the constants that are tried, where little is known of them.
+    """
+    coarse, best = replace(blank, discrepancy=COARSE), wide[0]
+    for place, side in product(places, (-ASIDE, ASIDE)):
+        constant = blank.study.constants.items[place]
+        if not constant.log or constant.sd < VAGUE:
+            continue
+        start = best.z.copy()
+        start[place] = side
+        again = refitted(coarse, start, best.objective)
+        if again is not None and again.objective < best.objective - SETTLED:
+            best = again
+    return different([best, *wide]) if best is not wide[0] else list(wide)
 
 
 def nearest_first(hypothesis: AnyHypothesis, points: Sequence[np.ndarray]) -> list[np.ndarray]:
