@@ -108,7 +108,7 @@ def _recorded(task: RecordedTest, tick: Tick) -> MeasuredTest:
         tick()
         return replace(known, stage=stage, name=test.name, support=test.support)
     with threadpool_limits(limits=1, user_api="blas"):
-        measured = measured_modes(paths, Placement.of_test(test))
+        measured = measured_modes(paths, Placement.of_test(test), hinted=False)
         if not measured.modes:
             raise input_error(
                 task.study, f"tests[{test.name}]", "no mode stands out of the noise", "repeat the test"

@@ -129,6 +129,8 @@ def measured_modes(
     placement: Placement | None = None,
     band_hz: tuple[float, float] | None = None,
     sweep: SweepSettings | None = None,
+    *,
+    hinted: bool = True,
 ) -> MeasuredModes:
     """Read recordings, estimate FRFs where they are time records, extract modes and name them.
 
@@ -142,6 +144,8 @@ def measured_modes(
         Frequencies to look at; all by default.
     sweep : SweepSettings, optional
         Time records are sine sweeps, not hits.
+    hinted : bool
+        Whether peaks are looked at for hints that they are not linear, which takes a quarter of the time.
 
     Raises
     ------
@@ -159,7 +163,7 @@ def measured_modes(
         raise RecordingError(f"{paths[0]}: holds FRFs, which need no sweep's band; leave it out")
     extraction = extract(frf_sets, band_hz)
     modes, remarks = _named(extraction)
-    modes = _with_hints(modes, extraction, frf_sets[0])
+    modes = _with_hints(modes, extraction, frf_sets[0]) if hinted else modes
     modes, sensor = _with_sensor(modes, extraction)
     said += [*extraction.remarks, *remarks, *_moving(modes, sensor), *_non_linear(modes)]
     if sweep is not None:
