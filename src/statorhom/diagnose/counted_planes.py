@@ -1,7 +1,8 @@
 """What a test's own measuring planes count of a mode's node planes.
 
 Four planes show three node planes at most: a mode with four of them is counted with none or two, and stands in the
-table like that. Predicted modes are called by what the same planes show of them.
+table like that. Predicted modes are called by what the same planes show of them. Where nobody says which planes a table
+was counted at, one between the ends may be missing, and with it two nodes.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from statorhom.diagnose.order_profiles import reference_profiles
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.model.convergence import ModeKey
-from statorhom.model.radial_profile import node_planes
+from statorhom.model.radial_profile import ENDS, PLANES, node_planes
 
 FAINT = 0.25  # of the largest amplitude, below which a plane may be taken for one near a node
 MIXED = 0.003  # relative: modes of one order that lie nearer to each other than this may be mixed in any way
@@ -25,16 +26,16 @@ MIXED = 0.003  # relative: modes of one order that lie nearer to each other than
 def counted_at_planes(
     stage: StageModel, test: MeasuredTest, modes: Mapping[ModeKey, PredictedMode]
 ) -> dict[ModeKey, PredictedMode]:
-    """The same modes with the counts of node planes that a test may find; as they are where its planes are unknown.
+    """The same modes with the counts of node planes that a test may find.
 
     Parameters
     ----------
     stage, test : whose planes.
     modes : predicted ones.
     """
-    if test.shapes is None:
-        return dict(modes)
-    counts = _counts(stage, tuple(test.shapes.z_m.tolist()))
+    counts = (
+        _counts_anywhere(stage) if test.shapes is None else _counts(stage, tuple(test.shapes.z_m.tolist()))
+    )
     return {key: replace(mode, shown=counts.get(key, ())) for key, mode in modes.items()}
 
 
@@ -49,6 +50,24 @@ def _counted(stage: StageModel, z_m: tuple[float, ...]) -> dict[ModeKey, tuple[i
     return {
         key: (*counts, *range(len(z_m))) if _is_mixed(stage, key) else counts for key, counts in found.items()
     }
+
+
+def _counts_anywhere(stage: StageModel) -> Mapping[ModeKey, tuple[int, ...]]:
+    """The same at planes that nobody knows."""
+    z_m = tuple(np.linspace(*ENDS, PLANES) * stage.model.mesh.length)
+
+    def counted() -> dict[ModeKey, tuple[int, ...]]:
+        profiles = reference_profiles(stage, z_m)
+        return {key: (key[1], *_with_fewer_planes(along)) for key, along in profiles.items()}
+
+    return stage.memory.once(("counted anywhere",), counted)
+
+
+def _with_fewer_planes(along: np.ndarray) -> tuple[int, ...]:
+    """Counts of a profile (planes,) without any one of its planes and that opposite to it; ends are always measured."""
+    planes = len(along)
+    rest = [[i for i in range(planes) if i not in (k, planes - 1 - k)] for k in range(1, planes // 2)]
+    return tuple(dict.fromkeys(int(node_planes(along[used, None])[0]) for used in rest))
 
 
 def _is_mixed(stage: StageModel, key: ModeKey) -> bool:
