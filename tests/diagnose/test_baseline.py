@@ -11,8 +11,10 @@ import pytest
 from statorhom.diagnose import baseline
 
 
-def valley(name: str, wide: float, adequacy: float, own_wide: float) -> SimpleNamespace:
-    hypothesis = SimpleNamespace(study=name)
+def valley(
+    name: str, wide: float, adequacy: float, own_wide: float, narrower: float | None = None
+) -> SimpleNamespace:
+    hypothesis = SimpleNamespace(study=name, narrower=wide if narrower is None else narrower)
     return SimpleNamespace(
         objective=wide, adequacy=adequacy, own_wide=own_wide, z=np.array([wide]), hypothesis=hypothesis
     )
@@ -34,6 +36,7 @@ def chosen(monkeypatch: pytest.MonkeyPatch, *valleys: SimpleNamespace) -> tuple[
         "Hypothesis": lambda study: study,
         "wide_optima": lambda *_, **__: list(valleys),
         "with_other_sides": lambda _, wide, *__: wide,
+        "in_valleys": lambda hypothesis, *_: SimpleNamespace(objective=hypothesis.narrower),
         "_settled": settle,
         "nothing": lambda found: found,
         "_wide_objective": lambda found: found.own_wide,
@@ -62,3 +65,18 @@ def test_where_none_fits_wide_valleys_tell(monkeypatch: pytest.MonkeyPatch) -> N
 def test_what_is_far_behind_is_not_followed(monkeypatch: pytest.MonkeyPatch) -> None:
     first, second = valley("a", 10.0, 1e-9, 9.0), valley("b", 60.0, 0.9, 1.0)
     assert chosen(monkeypatch, first, second) == ("a", ["a"], 1)
+
+
+def test_what_stays_best_as_valleys_narrow_is_followed_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A table of six wound modes has many valleys nearly as deep while three percent are forgiven."""
+    wide = [
+        valley("a", 41.9, 0.0, 160.0, 153.0),
+        valley("b", 47.2, 0.0, 200.0, 264.0),
+        valley("c", 47.6, 0.9, 8.0, 139.0),
+        valley("far", 70.0, 0.9, 1.0, 100.0),
+    ]
+    found, settled, others = chosen(monkeypatch, *wide)
+    assert (found, settled) == ("c", ["a", "c"])
+    assert others == 2
+    # where the widest is the narrowest too, nothing else is paid for
+    assert chosen(monkeypatch, valley("a", 41.9, 0.0, 9.0), valley("b", 50.0, 0.9, 8.0))[1] == ["a"]

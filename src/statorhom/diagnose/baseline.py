@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from statorhom.diagnose.constants import held_by_lines, new_constants, study_constants
-from statorhom.diagnose.explanations import nothing, widened
+from statorhom.diagnose.explanations import NARROWING, in_valleys, nothing, widened
 from statorhom.diagnose.features import SCATTER_SD
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.measured import MeasuredTest
@@ -16,7 +16,7 @@ from statorhom.diagnose.prediction import acted_materials, with_rules
 from statorhom.diagnose.refit import Refit, evaluated, refit
 from statorhom.diagnose.stage_model import StageModel, mesh_error, stage_model, with_reference
 from statorhom.diagnose.study_model import StudyModel
-from statorhom.diagnose.valleys import MOST, trials_around, wide_optima, with_other_sides
+from statorhom.diagnose.valleys import FAR_BEHIND, MOST, trials_around, wide_optima, with_other_sides
 from statorhom.errors import IdentificationError, StatorhomError
 from statorhom.geometry.tested_object import RingGeometry
 from statorhom.identify.settings import Settings
@@ -129,9 +129,10 @@ def _with_step(
     study = study.with_stages((*study.stages, stage))
     # constants of earlier steps stay while new ones are sought
     wide = wide_optima(Hypothesis(study), trials, most=MOST)
-    wide = with_other_sides(Hypothesis(study), wide, places)[:FOLLOWED]
+    wide = with_other_sides(Hypothesis(study), wide, places)
+    followed = _worth_following(wide)
     found: list[Refit[Hypothesis]] = []
-    for one in (w for w in wide if w.objective <= wide[0].objective + ALIKE):
+    for one in followed:
         # what a coarse mesh is wrong by differs from valley to valley: none is the best before that is known
         found.append(_settled(study, one, settings))
         if nothing(found[-1]).adequacy > CONVINCING:
@@ -139,8 +140,20 @@ def _with_step(
             break
     else:
         best = min(found, key=_wide_objective)
-    others = (*(r.z for r in found if r is not best), *(r.z for r in wide[len(found) :]))
+    begun = followed[: len(found)]
+    others = (*(r.z for r in found if r is not best), *(w.z for w in wide[:FOLLOWED] if w not in begun))
     return best.hypothesis.study, best.z, others
+
+
+def _worth_following(wide: Sequence[Refit[Hypothesis]]) -> list[Refit[Hypothesis]]:
+    """Optima in wide valleys that are as good as the best one, and the one that stays best as they narrow."""
+    alike = [w for w in wide[:FOLLOWED] if w.objective <= wide[0].objective + ALIKE]
+    near = [w for w in wide if w.objective <= wide[0].objective + FAR_BEHIND]
+    narrower = [
+        (r.objective, w) for w in near if (r := in_valleys(w.hypothesis, w.z, NARROWING[0])) is not None
+    ]
+    best = min(narrower, key=lambda pair: pair[0])[1] if narrower else wide[0]
+    return alike if best in alike else [*alike, best]
 
 
 def _wide_objective(found: Refit[Hypothesis]) -> float:
