@@ -126,6 +126,9 @@ def test_nothing_is_sought_where_something_explains_the_misfit(monkeypatch: pyte
     enough = search.explanation(-20.0, adequacy=0.3)
     assert with_lost_contact(search.base, [enough], [ARCS], {}) == []
     assert not search.begun
+    # a lump that leaves more than noise may stand in for an arc
+    assert with_lost_contact(search.base, [search.explanation(-50.0, adequacy=0.05)], [ARCS], {})
+    assert search.begun
 
 
 @pytest.mark.parametrize(("of_all", "sought"), [(0.05, True), (0.5, False)])

@@ -63,7 +63,7 @@ def _is_settled(best: Explanation, arcs: Sequence[Candidate]) -> bool:
     """
     if best.candidates and best.candidates[-1] in arcs:
         return best.adequacy_of_all > WELL
-    return best.adequacy_but_one > ADEQUATE
+    return best.adequacy_but_one > WELL
 
 
 def _sought(base: Refit, candidate: Candidate, worth: float) -> Refit | None:
