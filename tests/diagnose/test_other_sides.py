@@ -11,6 +11,7 @@ import pytest
 
 from statorhom.diagnose import sharper
 from statorhom.diagnose.constants import Constant
+from statorhom.diagnose.valleys import ASIDE
 
 VAGUE = Constant("stack:lamination.E_z_pa", 1e10, 1.7, 1e8, 1e12, log=True)
 KNOWN = Constant("stack:lamination.E_p_pa", 2e11, 0.05, 1e10, 1e12, log=True)
@@ -48,7 +49,7 @@ def test_a_valley_on_the_other_side_is_taken_where_it_is_deeper(
     best = sharper._on_other_sides(found_at(np.array([0.2, -0.7, 0.1]), 100.0))
     assert best.objective == objective
     # the one that is vague, both sides, and nothing else moved
-    assert [s[1] for s in starts] == [-sharper.ASIDE, sharper.ASIDE]
+    assert [s[1] for s in starts] == [-ASIDE, ASIDE]
     assert all(s[0] == 0.2 and s[2] == 0.1 for s in starts)
 
 
@@ -75,4 +76,4 @@ def test_what_breaks_the_symmetry_is_solved_on_the_other_side(monkeypatch: pytes
     monkeypatch.setattr(sharper, "in_its_own_model", own_model)
     monkeypatch.setattr(sharper, "refit", refit)
     assert sharper._on_other_sides(broken(np.array([0.2, -0.7, 0.1]), 100.0)).objective == 20.0
-    assert references == [-sharper.ASIDE, sharper.ASIDE]
+    assert references == [-ASIDE, ASIDE]

@@ -149,6 +149,8 @@ def _worth_following(wide: Sequence[Refit[Hypothesis]]) -> list[Refit[Hypothesis
     """Optima in wide valleys that are as good as the best one, and the one that stays best as they narrow."""
     alike = [w for w in wide[:FOLLOWED] if w.objective <= wide[0].objective + ALIKE]
     near = [w for w in wide if w.objective <= wide[0].objective + FAR_BEHIND]
+    if len(near) == len(alike):
+        return alike
     narrower = [
         (r.objective, w) for w in near if (r := in_valleys(w.hypothesis, w.z, NARROWING[0])) is not None
     ]

@@ -17,7 +17,7 @@ from statorhom.diagnose.order_profiles import reference_profiles
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.diagnose.stage_model import StageModel
 from statorhom.model.convergence import ModeKey
-from statorhom.model.radial_profile import ENDS, PLANES, node_planes
+from statorhom.model.radial_profile import node_planes, usual_planes
 
 FAINT = 0.25  # of the largest amplitude, below which a plane may be taken for one near a node
 MIXED = 0.003  # relative: modes of one order that lie nearer to each other than this may be mixed in any way
@@ -54,7 +54,7 @@ def _counted(stage: StageModel, z_m: tuple[float, ...]) -> dict[ModeKey, tuple[i
 
 def _counts_anywhere(stage: StageModel) -> Mapping[ModeKey, tuple[int, ...]]:
     """The same at planes that nobody knows."""
-    z_m = tuple(np.linspace(*ENDS, PLANES) * stage.model.mesh.length)
+    z_m = tuple(usual_planes(stage.model.mesh.length).tolist())
 
     def counted() -> dict[ModeKey, tuple[int, ...]]:
         profiles = reference_profiles(stage, z_m)

@@ -24,10 +24,7 @@ def rule_rows(e: Evidence, *, pair: bool) -> tuple[RuleRow, ...]:
     pair : whether the best explanation has two effects, the second of which has to be confirmed.
     """
     far = _needs_more_evidence(e)
-    alone = far and e.held_out is not None and not e.held_out.improves  # all else has to be far behind
-    nothing = FAR_OVER_NOTHING if alone else OVER_ADEQUATE if far else e.least_over_nothing
-    discrepancy = FAR_OVER_NOTHING if alone else FAR_OVER_OTHERS if far else e.least_over_discrepancy
-    others = FAR_OVER_OTHERS if far else OVER_OTHERS
+    nothing, others, discrepancy = _asked(e, far=far)
     rows = [
         RuleRow(rule="chance", found=e.p_value, needed=MAX_T_P, passed=not e.by_chance),
         RuleRow(rule="nothing", found=e.over_nothing, needed=nothing, passed=e.over_nothing > nothing),
@@ -46,6 +43,15 @@ def rule_rows(e: Evidence, *, pair: bool) -> tuple[RuleRow, ...]:
     if pair:
         rows.insert(5, RuleRow(rule="confirmed", found=None, needed=None, passed=e.confirmed))
     return tuple(rows)
+
+
+def _asked(e: Evidence, *, far: bool) -> tuple[float, float, float]:
+    """Log evidence over nothing, over every rival and over something in no library."""
+    if not far:
+        return e.least_over_nothing, OVER_OTHERS, e.least_over_discrepancy
+    if e.held_out is not None and e.held_out.improves:
+        return OVER_ADEQUATE, FAR_OVER_OTHERS, FAR_OVER_OTHERS
+    return FAR_OVER_NOTHING, FAR_OVER_OTHERS, FAR_OVER_NOTHING
 
 
 def _needs_more_evidence(e: Evidence) -> bool:

@@ -26,7 +26,7 @@ from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.mirrored import at_fitting_height
 from statorhom.diagnose.refit import Refit, refit
 from statorhom.diagnose.stage_model import StageModel, mesh_error, with_reference
-from statorhom.diagnose.valleys import APART, ASIDE, FAR_BEHIND, SETTLED, VAGUE
+from statorhom.diagnose.valleys import APART, FAR_BEHIND, SETTLED, best_of_sides
 from statorhom.errors import StatorhomError
 from statorhom.model.affine import Materials
 from statorhom.model.broken.change import Change
@@ -233,16 +233,8 @@ def _on_other_sides(optimum: Refit) -> Refit:
     Models of strong effects' own local fields take minutes: all are compared without these.
     """
     without = _from_there(optimum, optimum.z) if _has_own_fields(optimum) else None
-    begun = best = without or optimum
-    for i, constant in enumerate(best.hypothesis.study.constants.items):
-        if not constant.log or constant.sd < VAGUE:
-            continue
-        for side in (-ASIDE, ASIDE):
-            start = best.z.copy()
-            start[i] = side
-            again = _from_there(best, start)
-            if again is not None and again.objective < best.objective - SETTLED:
-                best = again
+    begun = without or optimum
+    best = best_of_sides(begun, enumerate(begun.hypothesis.study.constants.items), _from_there)
     return optimum if best is begun else best
 
 

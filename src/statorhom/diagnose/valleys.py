@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import product
@@ -12,6 +12,7 @@ from scipy.stats import norm, qmc
 from typing_extensions import TypeVar
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
+from statorhom.diagnose.constants import Constant
 from statorhom.diagnose.explanations import COARSE, refitted
 from statorhom.diagnose.refit import Refit, refit_objective
 from statorhom.diagnose.side_by_side import side_by_side
@@ -110,17 +111,34 @@ def with_other_sides(blank: _H, wide: Sequence[Refit[_H]], places: Sequence[int]
     wide : optima in wide valleys, the best first.
     places : of the constants that are tried, where little is known of them.
     """
-    coarse, best = replace(blank, discrepancy=COARSE), wide[0]
-    for place, side in product(places, (-ASIDE, ASIDE)):
-        constant = blank.study.constants.items[place]
+    coarse = replace(blank, discrepancy=COARSE)
+    constants = [(place, blank.study.constants.items[place]) for place in places]
+    best = best_of_sides(wide[0], constants, lambda r, start: refitted(coarse, start, r.objective))
+    return different([best, *wide]) if best is not wide[0] else list(wide)
+
+
+def best_of_sides(
+    best: Refit[_H],
+    constants: Iterable[tuple[int, Constant]],
+    follow: Callable[[Refit[_H], np.ndarray], Refit[_H] | None],
+) -> Refit[_H]:
+    """The best of an optimum and what is found where a constant of which little is known starts far to either side.
+
+    Parameters
+    ----------
+    best : the optimum.
+    constants : their places and themselves, which are tried one after the other.
+    follow : the best optimum so far and a start → the optimum from there.
+    """
+    for (place, constant), side in product(constants, (-ASIDE, ASIDE)):
         if not constant.log or constant.sd < VAGUE:
             continue
         start = best.z.copy()
         start[place] = side
-        again = refitted(coarse, start, best.objective)
+        again = follow(best, start)
         if again is not None and again.objective < best.objective - SETTLED:
             best = again
-    return different([best, *wide]) if best is not wide[0] else list(wide)
+    return best
 
 
 def nearest_first(hypothesis: AnyHypothesis, points: Sequence[np.ndarray]) -> list[np.ndarray]:

@@ -9,7 +9,7 @@ import numpy as np
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.free_modes import FreeModes
 from statorhom.model.harmonic import Harmonic
-from statorhom.model.radial_profile import PLANES
+from statorhom.model.radial_profile import PLANES, usual_planes
 from statorhom.model.stator_mode import StatorMode
 from statorhom.model.surface import SurfacePoints, surface_points
 from statorhom.modes.naming import ModeName, name_shape
@@ -31,7 +31,7 @@ class ShapeGrid:
 def shape_grid(mesh: HalfPitchMesh) -> ShapeGrid:
     """A regular grid over the core's outer surface."""
     angles = np.arange(ANGLES) * 2 * np.pi / ANGLES
-    planes = np.linspace(0.02, 0.98, PLANES) * mesh.length
+    planes = usual_planes(mesh.length)
     return ShapeGrid(angles, planes, surface_points(mesh, np.tile(angles, PLANES), np.repeat(planes, ANGLES)))
 
 

@@ -10,7 +10,7 @@ from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.harmonic import Harmonic
 from statorhom.model.surface import SurfacePoints, surface_points
 
-PLANES, ENDS = 9, (0.02, 0.98)  # of the core's height: enough for six node planes
+PLANES = 9  # enough for six node planes
 _NODE = 0.1  # of the largest amplitude
 ANGLES_PER_PITCH = 6  # orders up to 2 N beside the harmonic's own are kept apart
 
@@ -48,11 +48,16 @@ def radial_profile(mesh: HalfPitchMesh, planes_m: np.ndarray | None = None) -> R
     ----------
     planes_m : (p,) other axial positions (m).
     """
-    planes = np.linspace(*ENDS, PLANES) * mesh.length if planes_m is None else planes_m
+    planes = usual_planes(mesh.length) if planes_m is None else planes_m
     pitch = 2 * np.pi / mesh.slots
     angles = (np.arange(ANGLES_PER_PITCH) + 0.5) / ANGLES_PER_PITCH * pitch - pitch / 2
     points = surface_points(mesh, np.tile(angles, len(planes)), np.repeat(planes, ANGLES_PER_PITCH))
     return RadialProfile(planes, points, angles)
+
+
+def usual_planes(length: float) -> np.ndarray:
+    """(p,) axial positions over a core of a length, its ends included."""
+    return np.linspace(0.02, 0.98, PLANES) * length
 
 
 def node_planes(profile: np.ndarray, least: float = 0.0) -> np.ndarray:
