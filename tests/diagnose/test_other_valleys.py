@@ -83,3 +83,20 @@ def test_what_is_somewhere_is_left_to_its_own_search(
     monkeypatch.setattr(module, "is_a_field", lambda *_: False)
     assert sought(116.0, 1.0) == [116.0, 126.0]
     assert not tried
+
+
+@pytest.mark.parametrize(("adequacy", "left"), [(0.0, [27.0, 116.0]), (0.5, [116.0, 148.0])])
+def test_it_is_sought_too_where_another_effect_explains_more_but_not_enough(
+    monkeypatch: pytest.MonkeyPatch, tried: list[tuple[float, ...]], adequacy: float, left: list[float]
+) -> None:
+    """A gradient of 0.15 was behind a wrong length, which left far too much."""
+    monkeypatch.setattr(module, "is_a_field", lambda hypothesis, _: hypothesis.candidates == ("gradient",))
+    length: Any = refit(116.0)
+    length.hypothesis.candidates = ("length",)
+    wrong: Any = SimpleNamespace(refit=length, log_evidence=-58.0, adequacy_but_one=adequacy)
+    base: Any = SimpleNamespace(
+        free=SimpleNamespace(misfit=400.0), valleys=(np.array([1.0]), np.array([2.0]))
+    )
+    found = module.in_other_valleys(base, [wrong, Explanation((), refit(148.0), -74.0)], {})
+    assert [e.refit.objective for e in found] == left
+    assert bool(tried) == (adequacy == 0.0)

@@ -12,7 +12,14 @@ from functools import partial
 import numpy as np
 
 from statorhom.diagnose.baseline import Baseline
-from statorhom.diagnose.explanations import Explanation, blank, explained, through_wide_valleys, widened
+from statorhom.diagnose.explanations import (
+    ADEQUATE,
+    Explanation,
+    blank,
+    explained,
+    through_wide_valleys,
+    widened,
+)
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.refit_starts import is_poor
@@ -28,7 +35,9 @@ VALLEYS = 2  # that are followed, the best first
 def in_other_valleys(
     base: Baseline, found: Sequence[Explanation], counts: dict[str, int]
 ) -> list[Explanation]:
-    """The explanations, the best first; one that is all over its region in the best of the declared valleys.
+    """The explanations, the best first; the best one that is all over its region in the best of the declared valleys.
+
+    What is left of it in a wrong valley says little: others may lead there, as long as none explains enough.
 
     Parameters
     ----------
@@ -36,18 +45,22 @@ def in_other_valleys(
     found : explanations beside it, the best first.
     counts : effect → number of its candidates, over which its prior is spread.
     """
-    if not found or not is_poor(base.free) or not is_a_field(found[0].refit.hypothesis, found[0].refit.z):
+    field = next((e for e in found if is_a_field(e.refit.hypothesis, e.refit.z)), None)
+    if field is None or not is_poor(base.free):
         return list(found)
-    hypothesis = found[0].refit.hypothesis
+    if field is not found[0] and found[0].adequacy_but_one > ADEQUATE:
+        return list(found)
+    hypothesis = field.refit.hypothesis
     begun = blank(hypothesis, hypothesis.candidates)
     again = side_by_side(partial(_in_valley, begun), base.valleys[:VALLEYS], [begun, *begun.shared])
     best = min((r for r in again if r is not None), key=lambda r: r.objective, default=None)
     if best is None:
         return list(found)
     own = sharpened(explained(best, counts)).refit
-    if own.objective >= found[0].refit.objective:
+    if own.objective >= field.refit.objective:
         return list(found)
-    return sorted((explained(own, counts), *found[1:]), key=lambda e: -e.log_evidence)
+    others = [e for e in found if e is not field]
+    return sorted((explained(own, counts), *others), key=lambda e: -e.log_evidence)
 
 
 def _in_valley(hypothesis: Hypothesis, constants: np.ndarray) -> Refit | None:

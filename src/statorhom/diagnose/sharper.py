@@ -24,7 +24,8 @@ from statorhom.diagnose.explanations import (
 )
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.mirrored import at_fitting_height
-from statorhom.diagnose.refit import Refit, refit
+from statorhom.diagnose.refit import Refit, refit, refit_objective
+from statorhom.diagnose.single_effects import is_a_field
 from statorhom.diagnose.stage_model import StageModel, mesh_error, with_reference
 from statorhom.diagnose.valleys import APART, FAR_BEHIND, SETTLED, best_of_sides
 from statorhom.errors import StatorhomError
@@ -39,6 +40,7 @@ MOVED = (
     0.2  # of the logarithm of a stiffness: from its reference, at which what breaks the symmetry is solved
 )
 WORSE = 10.0  # of the objective, by which a model of its own is worse than the common one
+AWAY = 2.0  # of the objective, by which an optimum is none in its own model
 AROUND = 1 / 1.1, 1.1  # times its own arc, at which a contact that is lost over one is solved
 ITSELF = (1.0,)  # the same of a rival: each arc that is solved takes as long as all else
 BEHIND = 150.0  # log evidence by which others are too far behind for that
@@ -81,7 +83,8 @@ def at_its_own_materials(explanation: Explanation) -> Explanation:
     it is in the mean make up for each other, and both follow the reference.
     """
     for _ in range(ROUNDS):
-        if _keeps_symmetry(explanation.refit) or not _has_moved(explanation.refit):
+        r = explanation.refit
+        if _keeps_symmetry(r) or not (_has_moved(r) or is_a_field(r.hypothesis, r.z)):
             break
         again = _sharpened(explanation)
         gained = explanation.refit.objective - again.refit.objective
@@ -112,12 +115,32 @@ def _sharpened(explanation: Explanation, around: tuple[float, ...] = AROUND) -> 
     r = explanation.refit
     moved = in_its_own_model(r.hypothesis, r.z, around=around)
     again = refitted(moved, r.z)
+    if again is not None and _leads_past(r, again):
+        middle = _half_way(r, again, around)
+        again = min((x for x in (again, middle) if x is not None), key=lambda x: x.objective)
     if again is None or again.objective > r.objective + WORSE:
         # other mesh factors may have put the constants onto a slope of another valley
         wide = through_wide_valleys(moved, r.z)
         # and where two modes come near each other, a mesh factor may be that of the other one
         again = min((x for x in (again, wide, r) if x is not None), key=lambda x: x.objective)
     return replace(explanation, refit=again)
+
+
+def _leads_past(r: Refit, again: Refit) -> bool:
+    """Whether an optimum's own model leads away from it without a gain.
+
+    What breaks the symmetry strongly is off by more the further it is from where it was solved: then either optimum
+    stands where the other one's model is wrong.
+    """
+    if _keeps_symmetry(r) or again.objective < r.objective - SETTLED:
+        return False
+    return refit_objective(again.hypothesis, r.z) > again.objective + AWAY
+
+
+def _half_way(r: Refit, again: Refit, around: tuple[float, ...]) -> Refit | None:
+    """The optimum in the model of what lies between the two."""
+    middle = 0.5 * (r.z + again.z)
+    return refitted(in_its_own_model(r.hypothesis, middle, around=around), middle)
 
 
 def in_its_own_model(
