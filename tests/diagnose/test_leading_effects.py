@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from types import SimpleNamespace
 from typing import Any
 
@@ -35,6 +35,7 @@ def led(
     p_value: float,
     *steps: tuple[Any, list[Any]],
     again: Sequence[Any] = (),
+    typical: Callable[..., list[Any]] = lambda *_: [],
 ) -> Any:
     """What leads where the declared model is first one, then another; `again`: refits of one candidate there."""
     bases = [b for b, _ in steps]
@@ -51,6 +52,7 @@ def led(
     monkeypatch.setattr(
         leading, "refits", lambda _, trials, __: [e for e in again if (9.0, e.label) in trials]
     )
+    monkeypatch.setattr(leading, "beside_typical_materials", typical)
     monkeypatch.setattr(leading, "in_other_valleys", lambda _, found, __: found)
     monkeypatch.setattr(leading, "with_repeated_null", lambda _, found, __: found)
     monkeypatch.setattr(leading, "single_effects", lambda fit, *_: next(e for b, e in steps if b.free is fit))
@@ -93,6 +95,23 @@ def test_a_contact_lost_beside_another_winding_is_judged_by_its_evidence(
     assert found.found == (arc, lump)
     assert found.chance(arc) < 1e-15
     assert found.chance(lump) == 1e-4
+
+
+def test_what_typical_materials_lead_to_is_judged_by_its_evidence(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Beside a winding a tenth as stiff no signature gains, so that the scan finds nothing."""
+    soft, loose = explanation("soft", -52.0), explanation("loose", -90.0)
+    asked: list[Any] = []
+
+    def typical(fit: Any, found: Any, *_: Any) -> list[Any]:
+        asked.append((fit, found))
+        return [soft, explanation("lump", -110.0)]
+
+    declared = base(-138.0)
+    lump = explanation("lump", -100.0)
+    found = led(monkeypatch, 1e-4, (declared, [loose, lump]), typical=typical)
+    assert found.found == (soft, loose, lump)
+    assert asked == [(declared.free, (loose, lump))]  # what they beat
+    assert found.elsewhere == {"soft"}
 
 
 def test_a_deeper_valley_may_leave_nothing_to_explain(monkeypatch: pytest.MonkeyPatch) -> None:

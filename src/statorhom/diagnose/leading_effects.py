@@ -9,6 +9,7 @@ import numpy as np
 
 from statorhom.diagnose.approach import Approach
 from statorhom.diagnose.baseline import Baseline
+from statorhom.diagnose.beside_typical import beside_typical_materials
 from statorhom.diagnose.decision import OVER_NOTHING, is_chance
 from statorhom.diagnose.explanations import ADEQUATE, Explanation, nothing
 from statorhom.diagnose.held_out_name import renames_alone
@@ -77,13 +78,16 @@ def leading_effects(
     seed : of the scan's null distribution.
     """
     leading = _beside(base, candidates, counts, seed)
+    found = beside_typical_materials(leading.base.free, leading.found, candidates, counts)
+    leading = _with_more(leading, found)
     for _ in range(AGAIN):
         deeper = approach.declared_again(leading.base, leading.found)
         if deeper is None:
             break
         only = leading.found[0].label if _explains(leading.found[0], deeper) else None
         leading = _joined(leading, _beside(deeper, candidates, counts, seed, only=only))
-    return _with_lost_contact(leading, candidates, counts)
+    # what no signature beside the declared winding shows
+    return _with_more(leading, with_lost_contact(leading.base.free, leading.found, candidates, counts))
 
 
 def _beside(
@@ -112,15 +116,19 @@ def _of_one(base: Baseline, found: Scan, label: str | None, counts: dict[str, in
     return refits(base.free, [(s.gain, starts_of(base.free, found, s)) for s in own[:1]], counts)
 
 
-def _with_lost_contact(leading: Leading, candidates: Sequence[Candidate], counts: dict[str, int]) -> Leading:
-    """What no signature beside the declared winding shows."""
-    lost = with_lost_contact(leading.base.free, leading.found, candidates, counts)
-    if not lost:
-        return leading
-    labels = {e.label for e in lost}
-    rest = [e for e in leading.found if e.label not in labels]
-    found = sorted((*lost, *rest), key=lambda e: -e.log_evidence)
-    return replace(leading, found=tuple(found), elsewhere=leading.elsewhere | labels)
+def _with_more(leading: Leading, more: Sequence[Explanation]) -> Leading:
+    """And explanations that were found beside other constants, the better one of every candidate."""
+    best = _best_of_each((*leading.found, *more))
+    labels = {e.label for e in more if best[e.label] is e}
+    return replace(leading, found=tuple(best.values()), elsewhere=leading.elsewhere | labels)
+
+
+def _best_of_each(found: Sequence[Explanation]) -> dict[str, Explanation]:
+    """The best explanation by every candidate, the best first."""
+    best: dict[str, Explanation] = {}
+    for e in sorted(found, key=lambda e: -e.log_evidence):
+        best.setdefault(e.label, e)
+    return best
 
 
 def _explains(best: Explanation, deeper: Baseline) -> bool:
@@ -134,8 +142,6 @@ def _explains(best: Explanation, deeper: Baseline) -> bool:
 def _joined(before: Leading, now: Leading) -> Leading:
     """What was found in both valleys, the better one of every candidate."""
     least = nothing(now.base.refit).log_evidence + OVER_NOTHING
-    best: dict[str, Explanation] = {}
-    for e in sorted((*before.found, *now.found), key=lambda e: -e.log_evidence):
-        best.setdefault(e.label, e)
+    best = _best_of_each((*before.found, *now.found))
     elsewhere = frozenset(e.label for e in before.found if best[e.label] is e and e.log_evidence > least)
     return Leading(now.base, now.scan, now.unpaired, tuple(best.values()), elsewhere)

@@ -1,0 +1,104 @@
+"""What costs little, sought where its step's materials are as usual, where nothing explains the misfit.
+
+Without it the declared model may have fled: a soft end winding was a whole winding a tenth as stiff, with most modes
+without a partner. Beside that nothing explains anything, and in its basis the right winding would fit no better. So
+each step is solved anew with typical materials, and the effects on it are tried with materials all over the prior.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+from statorhom.diagnose.constants import new_constants
+from statorhom.diagnose.explanations import ADEQUATE, Explanation, blank, explained, nothing, refitted
+from statorhom.diagnose.hypothesis import Hypothesis
+from statorhom.diagnose.refit import Refit, evaluated
+from statorhom.diagnose.refit_starts import CHEAP, Start, narrowed_starts, price, shared_by, start_of
+from statorhom.diagnose.scan import starts as scan_starts
+from statorhom.diagnose.sharper import in_its_own_model, sharpened
+from statorhom.diagnose.side_by_side import side_by_side
+from statorhom.errors import StatorhomError
+from statorhom.physics.candidate import Candidate
+
+OWN_MODELS = 3  # of the best that are compared in models of their own
+NEAR = 60.0  # of the objective: what does not come so near to the best gets none
+
+
+def beside_typical_materials(
+    base: Refit, found: Sequence[Explanation], candidates: Sequence[Candidate], counts: dict[str, int]
+) -> list[Explanation]:
+    """Explanations beside other materials, the best first; none where one of them is no better than what is known.
+
+    Parameters
+    ----------
+    base : the declared model.
+    found : explanations beside it, the best first.
+    candidates : all effects.
+    counts : effect → number of its candidates, over which its prior is spread.
+    """
+    best = found[0] if found else nothing(base)
+    enough = max(best.adequacy_but_one, nothing(base).adequacy_but_one) > ADEQUATE
+    if enough or not isinstance(base.hypothesis, Hypothesis):
+        return []
+    begun = [
+        start for stage in base.hypothesis.study.stages for start in _starts(base, stage.name, candidates)
+    ]
+    again = side_by_side(_best_anywhere, begun, shared_by(begun))
+    own = _in_own_models([r for r in again if r is not None], counts)
+    return own if own and own[0].log_evidence > best.log_evidence else []
+
+
+def _starts(base: Refit, stage: str, candidates: Sequence[Candidate]) -> list[Start]:
+    """A step's effects that cost little, in the model of its typical materials."""
+    own = [c for c in candidates if c.stage == stage and c.parameters]
+    begun = [start_of(base, c, scan_starts(base.hypothesis.study, c)[0]) for c in own]
+    cheap = [c for c, start in zip(own, begun, strict=True) if _costs_little(start)]
+    typical = _with_typical_materials(base, stage) if cheap else None
+    if typical is None:
+        return []
+    return [start_of(typical, c, scan_starts(typical.hypothesis.study, c)[0]) for c in cheap]
+
+
+def _costs_little(start: Start) -> bool:
+    """Whether neither a solution nor a mesh nor a support belongs to each of its magnitudes."""
+    action = start.hypothesis.actions(start.z)[-1]
+    return price((0.0, [start])) == CHEAP and not action.dimensions and not action.supports
+
+
+def _with_typical_materials(base: Refit, stage: str) -> Refit | None:
+    """The declared model in the basis of the prior's median of a step; None where that has no materials of its own."""
+    study, z = base.hypothesis.study, base.z.copy()
+    places = [
+        place
+        for one in study.stages
+        if one.name == stage
+        for place in new_constants(study.constants, one.setup)
+    ]
+    if not places:
+        return None
+    z[places] = 0.0
+    try:
+        return evaluated(in_its_own_model(blank(base.hypothesis, base.hypothesis.candidates), z), z)
+    except (StatorhomError, KeyError):
+        return None
+
+
+def _best_anywhere(start: Start) -> Refit | None:
+    """The best optimum that is found all over the prior of the step."""
+    found = (refitted(one.hypothesis, one.z) for one in narrowed_starts(start))
+    return min((r for r in found if r is not None), key=lambda r: r.objective, default=None)
+
+
+def _in_own_models(found: Sequence[Refit], counts: dict[str, int]) -> list[Explanation]:
+    """The best of them in models of their own, and the others as they are; the best first."""
+    ordered = sorted(found, key=lambda r: r.objective)
+    near = [r for r in ordered[:OWN_MODELS] if r.objective < ordered[0].objective + NEAR]
+    shared = [one for r in near for one in (r.hypothesis, *r.hypothesis.shared)]
+    own = side_by_side(partial(_sharper, counts), near, shared)
+    rest = [explained(r, counts) for r in ordered[len(near) :]]
+    return sorted((*own, *rest), key=lambda e: -e.log_evidence)
+
+
+def _sharper(counts: dict[str, int], found: Refit) -> Explanation:
+    return explained(sharpened(explained(found, counts)).refit, counts)
