@@ -43,7 +43,8 @@ def chosen(monkeypatch: pytest.MonkeyPatch, *valleys: SimpleNamespace) -> tuple[
     }.items():
         monkeypatch.setattr(baseline, name, fake)
     settings = SimpleNamespace(seed=0, density=None)
-    found, _, others = baseline._with_step(study, np.zeros(0), None, (), settings)  # type: ignore[arg-type]
+    setup: Any = SimpleNamespace(keys=SimpleNamespace(name="stack"))
+    found, _, others = baseline._with_step(study, np.zeros(0), setup, (), settings)  # type: ignore[arg-type]
     return found, settled, len(others)
 
 

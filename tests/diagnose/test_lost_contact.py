@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose import lost_contact as module
+from statorhom.diagnose import typical_materials as typical
 from statorhom.diagnose.arc_search import TRAINED
 from statorhom.diagnose.lost_contact import ROUNDS, with_lost_contact
 from statorhom.diagnose.refit_starts import Start
@@ -43,7 +44,9 @@ class Search:
         )
         monkeypatch.setattr(module, "nothing", lambda _: self.explanation(-200.0))
         monkeypatch.setattr(module, "explained", self.explained)
-        monkeypatch.setattr(module, "blank", lambda h, _: h)
+        monkeypatch.setattr(typical, "blank", lambda h, _: h)
+        monkeypatch.setattr(typical, "evaluated", lambda h, z: SimpleNamespace(hypothesis=h, z=z))
+        monkeypatch.setattr(typical, "in_its_own_model", self.model)
         monkeypatch.setattr(module, "evaluated", lambda h, z: SimpleNamespace(hypothesis=h, z=z))
         monkeypatch.setattr(module, "in_its_own_model", self.model)
         monkeypatch.setattr(module, "scan_starts", lambda *_: [np.zeros(4)])

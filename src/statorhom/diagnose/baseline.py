@@ -122,7 +122,7 @@ def _with_step(
     study: StudyModel, z: np.ndarray, setup: StageSetup, tests: Sequence[MeasuredTest], settings: Settings
 ) -> tuple[StudyModel, np.ndarray, tuple[np.ndarray, ...]]:
     """One more step: its constants from the best of many starts; the other optima."""
-    places = new_constants(study.constants, setup)
+    places = new_constants(study.constants, setup.keys.name)
     trials = trials_around(z, places, settings.seed)
     snapshots = _materials(study, setup, trials)[:SNAPSHOTS]
     stage = stage_model(setup, tests, snapshots, settings.density)

@@ -10,15 +10,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from statorhom.diagnose.constants import new_constants
-from statorhom.diagnose.explanations import ADEQUATE, Explanation, blank, explained, nothing, refitted
+from statorhom.diagnose.explanations import ADEQUATE, Explanation, explained, nothing, refitted
 from statorhom.diagnose.hypothesis import Hypothesis
-from statorhom.diagnose.refit import Refit, evaluated
+from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.refit_starts import CHEAP, Start, narrowed_starts, price, shared_by, start_of
 from statorhom.diagnose.scan import starts as scan_starts
-from statorhom.diagnose.sharper import in_its_own_model, sharpened
+from statorhom.diagnose.sharper import sharpened
 from statorhom.diagnose.side_by_side import side_by_side
-from statorhom.errors import StatorhomError
+from statorhom.diagnose.single_effects import MOSTLY
+from statorhom.diagnose.typical_materials import with_typical_materials
 from statorhom.physics.candidate import Candidate
 
 OWN_MODELS = 3  # of the best that are compared in models of their own
@@ -39,7 +39,9 @@ def beside_typical_materials(
     """
     best = found[0] if found else nothing(base)
     enough = max(best.adequacy_but_one, nothing(base).adequacy_but_one) > ADEQUATE
-    if enough or not isinstance(base.hypothesis, Hypothesis):
+    # what explains most of the misfit where the declared model stands says that it belongs there
+    leads = bool(found) and best.refit.objective < MOSTLY * base.objective
+    if enough or leads or not isinstance(base.hypothesis, Hypothesis):
         return []
     begun = [
         start for stage in base.hypothesis.study.stages for start in _starts(base, stage.name, candidates)
@@ -54,7 +56,7 @@ def _starts(base: Refit, stage: str, candidates: Sequence[Candidate]) -> list[St
     own = [c for c in candidates if c.stage == stage and c.parameters]
     begun = [start_of(base, c, scan_starts(base.hypothesis.study, c)[0]) for c in own]
     cheap = [c for c, start in zip(own, begun, strict=True) if _costs_little(start)]
-    typical = _with_typical_materials(base, stage) if cheap else None
+    typical = with_typical_materials(base, stage) if cheap else None
     if typical is None:
         return []
     return [start_of(typical, c, scan_starts(typical.hypothesis.study, c)[0]) for c in cheap]
@@ -64,24 +66,6 @@ def _costs_little(start: Start) -> bool:
     """Whether neither a solution nor a mesh nor a support belongs to each of its magnitudes."""
     action = start.hypothesis.actions(start.z)[-1]
     return price((0.0, [start])) == CHEAP and not action.dimensions and not action.supports
-
-
-def _with_typical_materials(base: Refit, stage: str) -> Refit | None:
-    """The declared model in the basis of the prior's median of a step; None where that has no materials of its own."""
-    study, z = base.hypothesis.study, base.z.copy()
-    places = [
-        place
-        for one in study.stages
-        if one.name == stage
-        for place in new_constants(study.constants, one.setup)
-    ]
-    if not places:
-        return None
-    z[places] = 0.0
-    try:
-        return evaluated(in_its_own_model(blank(base.hypothesis, base.hypothesis.candidates), z), z)
-    except (StatorhomError, KeyError):
-        return None
 
 
 def _best_anywhere(start: Start) -> Refit | None:

@@ -108,9 +108,9 @@ class Constants:
         return pairs[:, 0], pairs[:, 1]
 
 
-def new_constants(constants: Constants, setup: StageSetup) -> list[int]:
+def new_constants(constants: Constants, stage: str) -> list[int]:
     """Places of a step's own material constants, those that are not fixed."""
-    prefix = f"{setup.keys.name}:"
+    prefix = f"{stage}:"
     return [
         i
         for i, c in enumerate(constants.items)

@@ -17,7 +17,6 @@ from statorhom.diagnose.explanations import (
     ADEQUATE,
     WELL,
     Explanation,
-    blank,
     explained,
     nothing,
     refitted,
@@ -27,6 +26,7 @@ from statorhom.diagnose.refit import Refit, evaluated
 from statorhom.diagnose.refit_starts import start_of
 from statorhom.diagnose.scan import starts as scan_starts
 from statorhom.diagnose.sharper import in_its_own_model
+from statorhom.diagnose.typical_materials import with_typical_materials
 from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
 
@@ -74,11 +74,11 @@ def _sought(base: Refit, candidate: Candidate, worth: float) -> Refit | None:
     base, candidate : the declared model, and the arc.
     worth : objective that is reached without an arc.
     """
-    typical = _with_typical_winding(base, candidate)
+    typical = with_typical_materials(base, candidate.stage, quick=True, arcs=TRAINED)
     if typical is None:
         return None
     start = start_of(typical, candidate, scan_starts(typical.hypothesis.study, candidate)[0])
-    winding = _winding(base, candidate)
+    winding = new_constants(base.hypothesis.study.constants, candidate.stage)
     z = arc_beside_any_winding(start, winding, worth)
     try:
         there = None if z is None else evaluated(start.hypothesis, z)
@@ -104,21 +104,3 @@ def _followed(own: Hypothesis, places: Sequence[int], z: np.ndarray) -> Refit | 
     """The optimum next to a point: followed in few vectors, and the last steps in all."""
     near = followed_near(own, places, z)
     return None if near is None else refitted(own, near)
-
-
-def _with_typical_winding(base: Refit, candidate: Candidate) -> Refit | None:
-    """The declared model with a winding as it usually is, in the model of that, which knows some arcs."""
-    z = base.z.copy()
-    z[_winding(base, candidate)] = 0.0
-    try:
-        declared = blank(base.hypothesis, base.hypothesis.candidates)
-        return evaluated(in_its_own_model(declared, z, quick=True, arcs=TRAINED), z)
-    except (StatorhomError, KeyError):
-        return None
-
-
-def _winding(base: Refit, candidate: Candidate) -> list[int]:
-    """Places of the constants of the candidate's step."""
-    study = base.hypothesis.study
-    own = [s.setup for s in study.stages if s.setup.keys.name == candidate.stage]
-    return [place for setup in own for place in new_constants(study.constants, setup)]

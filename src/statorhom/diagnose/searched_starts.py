@@ -12,7 +12,6 @@ from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.refit import Refit
 from statorhom.diagnose.valleys import trials_around, wide_optima
 from statorhom.errors import IdentificationError
-from statorhom.identify.stage_setup import StageSetup
 
 REFITTED = 6  # points that are followed in wide valleys
 SUPPORTS = 8  # that are tried, each with many materials
@@ -30,8 +29,7 @@ def searched_starts(hypothesis: Hypothesis, z: np.ndarray, seed: int = 0) -> lis
     """
     candidate = hypothesis.candidates[-1]
     constants = hypothesis.study.constants
-    own = [s.setup for s in hypothesis.study.stages if s.setup.keys.name == candidate.stage]
-    places = [place for setup in own for place in new_constants(constants, setup)]
+    places = new_constants(constants, candidate.stage)
     if not places:
         return []
     low, high = hypothesis.limits()
@@ -59,8 +57,8 @@ def of_later_steps(found: Refit[Hypothesis], seed: int = 0) -> list[Refit[Hypoth
     hypothesis, z = replace(found.hypothesis, held=None, trained=False), found.z
     low, high = hypothesis.limits()
     optima: list[Refit[Hypothesis]] = []
-    for setup in _after(hypothesis):
-        places = new_constants(hypothesis.study.constants, setup)
+    for stage in _after(hypothesis):
+        places = new_constants(hypothesis.study.constants, stage)
         if not places:
             continue
         try:
@@ -72,11 +70,11 @@ def of_later_steps(found: Refit[Hypothesis], seed: int = 0) -> list[Refit[Hypoth
     return optima
 
 
-def _after(hypothesis: Hypothesis) -> list[StageSetup]:
+def _after(hypothesis: Hypothesis) -> list[str]:
     """The tested steps after the effect's own."""
     order = [stage.name for stage in hypothesis.study.files.study.stages]
     own = order.index(hypothesis.candidates[-1].stage)
-    return [s.setup for s in hypothesis.study.stages if order.index(s.setup.keys.name) > own]
+    return [s.name for s in hypothesis.study.stages if order.index(s.name) > own]
 
 
 def _with_few_supports(points: Sequence[np.ndarray], constants: int) -> list[np.ndarray]:

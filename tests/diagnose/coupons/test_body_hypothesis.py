@@ -144,7 +144,7 @@ def test_prescribed_constants_are_not_sought(tmp_path: Path) -> None:
     files = load_study(write_plate(tmp_path, FREQUENCIES, identify=known))
     setup = stage_setup(files, object_geometry(files.drawing, files.geometry_path), 0)
     constants = study_constants([setup], (), 0.0)
-    sought = {constants.names[i].partition(".")[2] for i in new_constants(constants, setup)}
+    sought = {constants.names[i].partition(".")[2] for i in new_constants(constants, setup.keys.name)}
     assert sought == {"E_1_pa", "E_2_pa", "nu_13", "nu_23", "G_12_pa", "G_23_pa"}
     assert {i.name for i in constants.items if i.fixed} == {
         f"plate:plate.{name}" for name in ("E_3_pa", "nu_12", "G_13_pa")

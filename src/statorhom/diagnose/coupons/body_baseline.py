@@ -62,7 +62,7 @@ def body_baseline(
     constants = study_constants([setup], (), SCATTER_SD)
     effects = tuple(d.action for d in declared_effects(files))
     study = BodyStudy(files, constants, (), effects)
-    places = new_constants(constants, setup)
+    places = new_constants(constants, setup.keys.name)
     trials = trials_around(np.zeros(len(constants)), places, settings.seed)
     snapshots = _snapshots(study, setup, trials, min(SNAPSHOTS, 1 + len(places)))
     # other dimensions are other Hooke entries
@@ -79,7 +79,10 @@ def body_baseline(
 
 def varied_regions(constants: Constants, setup: StageSetup) -> frozenset[str]:
     """Regions that have constants to be found."""
-    free = {constants.names[i].partition(":")[2].partition(".")[0] for i in new_constants(constants, setup)}
+    free = {
+        constants.names[i].partition(":")[2].partition(".")[0]
+        for i in new_constants(constants, setup.keys.name)
+    }
     return frozenset(r.region for r in setup.materials.regions if r.source in free)
 
 
