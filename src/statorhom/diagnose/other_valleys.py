@@ -26,7 +26,7 @@ from statorhom.diagnose.refit_starts import is_poor
 from statorhom.diagnose.scan import starts
 from statorhom.diagnose.sharper import in_its_own_model, sharpened
 from statorhom.diagnose.side_by_side import side_by_side
-from statorhom.diagnose.single_effects import MOSTLY, is_a_field
+from statorhom.diagnose.single_effects import is_a_field
 from statorhom.errors import StatorhomError
 
 VALLEYS = 2  # that are followed, the best first
@@ -37,7 +37,7 @@ def in_other_valleys(
 ) -> list[Explanation]:
     """The explanations, the best first; the best one that is all over its region in the best of the declared valleys.
 
-    What is left of it in a wrong valley says little: others may lead there, as long as none explains enough, or most.
+    What is left of it in a wrong valley says little: others may lead there, as long as none explains enough.
 
     Parameters
     ----------
@@ -48,9 +48,7 @@ def in_other_valleys(
     field = next((e for e in found if is_a_field(e.refit.hypothesis, e.refit.z)), None)
     if field is None or not is_poor(base.free):
         return list(found)
-    first = found[0]
-    most = first.refit.objective < MOSTLY * base.free.objective
-    if field is not first and (most or first.adequacy_but_one > ADEQUATE):
+    if field is not found[0] and (found[0].adequacy_but_one > ADEQUATE or _costs_much(base)):
         return list(found)
     hypothesis = field.refit.hypothesis
     begun = blank(hypothesis, hypothesis.candidates)
@@ -63,6 +61,11 @@ def in_other_valleys(
         return list(found)
     others = [e for e in found if e is not field]
     return sorted((explained(own, counts), *others), key=lambda e: -e.log_evidence)
+
+
+def _costs_much(base: Baseline) -> bool:
+    """Whether models in each of the other valleys take minutes: those of several steps do."""
+    return len(base.free.hypothesis.study.stages) > 1
 
 
 def _in_valley(hypothesis: Hypothesis, constants: np.ndarray) -> Refit | None:
