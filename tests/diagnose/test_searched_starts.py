@@ -30,7 +30,7 @@ class Model:
 
 def found(stage: str) -> Any:
     items = [SimpleNamespace(name=f"{name}:material.{k}", fixed=False) for name in NAMES for k in ("E", "G")]
-    setups = [SimpleNamespace(setup=SimpleNamespace(keys=SimpleNamespace(name=name))) for name in NAMES]
+    setups = [SimpleNamespace(name=name) for name in NAMES]
     files = SimpleNamespace(study=SimpleNamespace(stages=[SimpleNamespace(name=name) for name in NAMES]))
     study = SimpleNamespace(stages=setups, files=files, constants=SimpleNamespace(items=items))
     return SimpleNamespace(hypothesis=Model((SimpleNamespace(stage=stage),), study), z=np.zeros(7))
