@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose import beside_typical as module
+from statorhom.diagnose import single_effects as effects
 from statorhom.diagnose import typical_materials as typical
 from statorhom.diagnose.explanations import ADEQUATE
 from statorhom.diagnose.refit_starts import CHEAP, DEAR
@@ -59,9 +60,9 @@ class Search:
         monkeypatch.setattr(module, "scan_starts", lambda *_: [np.zeros(1)])
         monkeypatch.setattr(module, "start_of", self.start)
         monkeypatch.setattr(module, "price", lambda trial: self.prices.get(trial[1][0].label, CHEAP))
-        monkeypatch.setattr(module, "narrowed_starts", lambda start: [start])
+        monkeypatch.setattr(effects, "narrowed_starts", lambda start: [start])
         monkeypatch.setattr(module, "shared_by", lambda _: [])
-        monkeypatch.setattr(module, "refitted", lambda h, _: None if h.label == "lost" else self.refit(h))
+        monkeypatch.setattr(effects, "refitted", lambda h, _: None if h.label == "lost" else self.refit(h))
         monkeypatch.setattr(
             module, "explained", lambda r, _: explanation(-r.objective, label=r.hypothesis.label, refit=r)
         )
@@ -74,7 +75,12 @@ class Search:
     def start(self, base: Any, own: Any, start: np.ndarray) -> Any:
         absent = SimpleNamespace(dimensions=(), supports={})
         actions = self.actions.get(own.label, absent)
-        hypothesis = SimpleNamespace(label=own.label, shared=(), actions=lambda _: [actions])
+        declared = SimpleNamespace(
+            dimensions=("bore_mm",), supports={}
+        )  # after the effects: no part of their price
+        hypothesis = SimpleNamespace(
+            label=own.label, candidates=(own,), shared=(), actions=lambda _: [actions, declared]
+        )
         return SimpleNamespace(hypothesis=hypothesis, z=np.r_[base.z, start], label=own.label)
 
     def refit(self, hypothesis: Any) -> Any:

@@ -11,6 +11,7 @@ import pytest
 from statorhom.diagnose import sharper as module
 from statorhom.diagnose.explanations import Explanation
 from statorhom.diagnose.sharper import AROUND, ITSELF, _arcs, at_its_own_materials, sharpened
+from statorhom.errors import SolverError
 from statorhom.physics.action import Action, Joint
 
 WOUND = ("winding", "overhang")
@@ -123,3 +124,16 @@ def test_what_two_models_lead_past_lies_between_them(
     models_right_at_two_alone(monkeypatch, lead)
     begun: Any = SimpleNamespace(hypothesis=None, z=3.0, objective=objective)
     assert module._sharpened(Explanation((), begun, 0.0)).refit.z == pytest.approx(found)
+
+
+def test_between_two_models_may_lie_no_stator(monkeypatch: pytest.MonkeyPatch) -> None:
+    models_right_at_two_alone(monkeypatch, -1.0)
+
+    def only_there(_: Any, z: float, **__: Any) -> Any:
+        if z == 2.0:
+            raise SolverError("no stator has these constants")
+        return SimpleNamespace(reference=z)
+
+    monkeypatch.setattr(module, "in_its_own_model", only_there)
+    begun: Any = SimpleNamespace(hypothesis=None, z=3.0, objective=25.0)
+    assert module._sharpened(Explanation((), begun, 0.0)).refit.z == 1.0

@@ -10,14 +10,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from statorhom.diagnose.explanations import ADEQUATE, Explanation, explained, nothing, refitted
+from statorhom.diagnose.explanations import ADEQUATE, Explanation, explained, nothing
 from statorhom.diagnose.hypothesis import Hypothesis
 from statorhom.diagnose.refit import Refit
-from statorhom.diagnose.refit_starts import CHEAP, Start, narrowed_starts, price, shared_by, start_of
+from statorhom.diagnose.refit_starts import CHEAP, Start, last_action, price, shared_by, start_of
 from statorhom.diagnose.scan import starts as scan_starts
 from statorhom.diagnose.sharper import sharpened
 from statorhom.diagnose.side_by_side import side_by_side
-from statorhom.diagnose.single_effects import MOSTLY
+from statorhom.diagnose.single_effects import MOSTLY, optima_elsewhere
 from statorhom.diagnose.typical_materials import with_typical_materials
 from statorhom.physics.candidate import Candidate
 
@@ -37,8 +37,9 @@ def beside_typical_materials(
     candidates : all effects.
     counts : effect → number of its candidates, over which its prior is spread.
     """
-    best = found[0] if found else nothing(base)
-    enough = max(best.adequacy_but_one, nothing(base).adequacy_but_one) > ADEQUATE
+    none = nothing(base)
+    best = found[0] if found else none
+    enough = max(best.adequacy_but_one, none.adequacy_but_one) > ADEQUATE
     # what explains most of the misfit where the declared model stands says that it belongs there
     leads = bool(found) and best.refit.objective < MOSTLY * base.objective
     if enough or leads or not isinstance(base.hypothesis, Hypothesis):
@@ -64,14 +65,13 @@ def _starts(base: Refit, stage: str, candidates: Sequence[Candidate]) -> list[St
 
 def _costs_little(start: Start) -> bool:
     """Whether neither a solution nor a mesh nor a support belongs to each of its magnitudes."""
-    action = start.hypothesis.actions(start.z)[-1]
+    action = last_action(start)
     return price((0.0, [start])) == CHEAP and not action.dimensions and not action.supports
 
 
 def _best_anywhere(start: Start) -> Refit | None:
     """The best optimum that is found all over the prior of the step."""
-    found = (refitted(one.hypothesis, one.z) for one in narrowed_starts(start))
-    return min((r for r in found if r is not None), key=lambda r: r.objective, default=None)
+    return min(optima_elsewhere(start), key=lambda r: r.objective, default=None)
 
 
 def _in_own_models(found: Sequence[Refit], counts: dict[str, int]) -> list[Explanation]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from statorhom.diagnose.explanations import Explanation, blank, explained, refitted
 from statorhom.diagnose.refit import Refit
-from statorhom.diagnose.refit_starts import CHEAP, Start, price
+from statorhom.diagnose.refit_starts import CHEAP, Start, last_action, price
 from statorhom.diagnose.scan import Scan, Signature
 from statorhom.diagnose.valleys import nearest_first
 
@@ -53,8 +53,8 @@ def _beside(base: Refit, best: Explanation, signatures: Sequence[Signature]) -> 
     candidate = signatures[0].candidate
     hypothesis = blank(best.refit.hypothesis, (*base.hypothesis.candidates, candidate))
     points = [np.r_[best.refit.z[: len(base.z)], s.start] for s in signatures]
-    own = hypothesis.actions(points[0])[len(hypothesis.candidates) - 1]
-    if price((0.0, [Start(hypothesis, points[0])])) != CHEAP or own.dimensions:
+    begun = Start(hypothesis, points[0])
+    if price((0.0, [begun])) != CHEAP or last_action(begun).dimensions:
         return None
     nearest = nearest_first(hypothesis, points)[:1]
     return refitted(hypothesis, nearest[0], best.refit.objective + RIVAL) if nearest else None

@@ -18,6 +18,7 @@ from statorhom.diagnose.side_by_side import side_by_side
 from statorhom.diagnose.valleys import wide_optima
 from statorhom.diagnose.wider_basis import with_materials_of
 from statorhom.errors import IdentificationError
+from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
 
 STARTS, TRIED = 2, 4  # of one candidate that are followed, and that wide valleys choose them from
@@ -139,11 +140,16 @@ def _of_different_effects(trials: Sequence[Trial], first: Signature) -> list[Tri
     return list(found.values())[:RIVALS]
 
 
+def last_action(start: Start) -> Action:
+    """What the candidate does; after it stands what the study declares."""
+    return start.hypothesis.actions(start.z)[len(start.hypothesis.candidates) - 1]
+
+
 def price(trial: Trial) -> int:
     """What an evaluation costs: least where the symmetry is kept, most with a contact that is lost over an arc."""
     _, (start, *_) = trial
     # what the candidate is added to costs the same with each of them
-    action = start.hypothesis.actions(start.z)[len(start.hypothesis.candidates) - 1]
+    action = last_action(start)
     if action.joint is not None and action.joint.arc is not None:
         return DEAR
     return CHEAP if action.changes is None else MIDDLING

@@ -138,9 +138,12 @@ def _leads_past(r: Refit, again: Refit) -> bool:
 
 
 def _half_way(r: Refit, again: Refit, around: tuple[float, ...]) -> Refit | None:
-    """The optimum in the model of what lies between the two."""
+    """The optimum in the model of what lies between the two; None where no stator has that."""
     middle = 0.5 * (r.z + again.z)
-    return refitted(in_its_own_model(r.hypothesis, middle, around=around), middle)
+    try:
+        return refitted(in_its_own_model(r.hypothesis, middle, around=around), middle)
+    except (StatorhomError, KeyError):
+        return None
 
 
 def in_its_own_model(

@@ -35,6 +35,7 @@ from statorhom.diagnose.refit_starts import (
     Trial,
     in_order,
     is_poor,
+    last_action,
     narrowed_starts,
     price,
     shared_by,
@@ -187,7 +188,7 @@ def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: floa
         others = _beside_later_steps(best)
     elif best is not None and costs_little and not far and best.objective > known:
         # beside a poor model the strongest effects are sought all over the prior in any case
-        others = [] if _holds(starts[0]) else _elsewhere(starts[0])
+        others = [] if _holds(starts[0]) else optima_elsewhere(starts[0])
     if best is None:
         return None
     placed = at_fitting_height(at_fitting_angle(min([best, *others], key=_objective), worth), worth)
@@ -219,10 +220,10 @@ def _will_do(found: Refit, known: float, *, far: bool) -> bool:
 
 def _holds(start: Start) -> bool:
     """Whether the last effect is a support's: its stiffest one is none that is rigid, so that it may explain less."""
-    return bool(start.hypothesis.actions(start.z)[len(start.hypothesis.candidates) - 1].supports)
+    return bool(last_action(start).supports)
 
 
-def _elsewhere(start: Start) -> list[Refit]:
+def optima_elsewhere(start: Start) -> list[Refit]:
     """Optima all over the prior, for an effect that explains less than its absence stands in no valley of its own."""
     found = (refitted(other.hypothesis, other.z) for other in narrowed_starts(start))
     return [r for r in found if r is not None]
