@@ -7,9 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from statorhom.conceal.scatter import scatter
 from statorhom.diagnose.derivatives import slopes_of
 from statorhom.diagnose.feature import LOST, held_down
-from statorhom.diagnose.features import free_features, own_sd, shift_features
+from statorhom.diagnose.features import SCATTER_SD, free_features, own_sd, shift_features
 from statorhom.diagnose.measured import MeasuredSplit, MeasuredTest, PlaneShifts
 from statorhom.diagnose.prediction import PredictedMode
 from statorhom.diagnose.sensor_response import SensorResponse
@@ -32,6 +33,22 @@ def test_the_right_sensor_mass_leaves_nothing() -> None:
     none = shift_features(test, {"1": key}, response, 0.0)
     assert max(abs(f.residual) for f in right) < 1e-6
     assert max(abs(f.residual) for f in none) > 3.0
+
+
+def test_the_scatter_of_cores_is_as_wide_as_it_is_taken_for() -> None:
+    # the sum of a core's waves of one harmonic, a doublet's 2r, in both parts
+    rng = np.random.default_rng(0)
+    harmonics = (4, 6, 8)
+    waves = np.zeros((4000, len(harmonics)), dtype=complex)
+    for core in waves:
+        for wave in scatter(rng):
+            if wave.harmonic in harmonics:
+                turned = np.exp(1j * wave.harmonic * wave.angle)
+                core[harmonics.index(wave.harmonic)] += wave.amplitude * turned
+    typical = np.sqrt(np.mean(np.abs(waves) ** 2) / 2)
+    assert 0.6 * SCATTER_SD < typical < SCATTER_SD
+    # of normal parts one wave of a hundred is stronger than this
+    assert np.quantile(np.abs(waves), 0.99) < np.sqrt(2 * np.log(100)) * SCATTER_SD
 
 
 @pytest.mark.parametrize("rows", [1, 2])
