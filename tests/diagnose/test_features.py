@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from statorhom.conceal.breaks import Wave
 from statorhom.conceal.scatter import scatter
 from statorhom.diagnose.derivatives import slopes_of
 from statorhom.diagnose.feature import LOST, held_down
@@ -36,19 +38,18 @@ def test_the_right_sensor_mass_leaves_nothing() -> None:
 
 
 def test_the_scatter_of_cores_is_as_wide_as_it_is_taken_for() -> None:
-    # the sum of a core's waves of one harmonic, a doublet's 2r, in both parts
     rng = np.random.default_rng(0)
-    harmonics = (4, 6, 8)
-    waves = np.zeros((4000, len(harmonics)), dtype=complex)
-    for core in waves:
-        for wave in scatter(rng):
-            if wave.harmonic in harmonics:
-                turned = np.exp(1j * wave.harmonic * wave.angle)
-                core[harmonics.index(wave.harmonic)] += wave.amplitude * turned
+    # the sum of a core's waves of one harmonic, a doublet's 2r, in both parts
+    waves = np.array([[_wave(core, n) for n in (4, 6, 8)] for core in (scatter(rng) for _ in range(4000))])
     typical = np.sqrt(np.mean(np.abs(waves) ** 2) / 2)
     assert 0.6 * SCATTER_SD < typical < SCATTER_SD
     # of normal parts one wave of a hundred is stronger than this
     assert np.quantile(np.abs(waves), 0.99) < np.sqrt(2 * np.log(100)) * SCATTER_SD
+
+
+def _wave(core: Sequence[Wave], harmonic: int) -> complex:
+    own = (w.amplitude * np.exp(1j * harmonic * w.angle) for w in core if w.harmonic == harmonic)
+    return complex(sum(own))
 
 
 @pytest.mark.parametrize("rows", [1, 2])

@@ -26,8 +26,8 @@ from statorhom.study.modal_table import MeasuredMode
 # of frequencies: floor, part of the mesh's correction, and what its square adds where the mesh is too coarse for that
 OWN, OWN_PART, OWN_SQUARE = 5e-4, 0.05, 3.0
 ALONE = 5e-3  # of a mode that only an arc of lost contact has: no finer mesh has shown it
-# of either part of a stiffness wave 2r in the core: sheets, punching and welding vary that much, so that waves of 2e-3
-# in no declared model are nothing unusual
+# of either part of a stiffness wave 2r in the core: sheets, punching and welding vary that much, so that one of 2e-3 is
+# nothing unusual
 SCATTER_SD = 8e-4
 SPLIT_OWN = 3e-4  # what the modes of one order differ by in it
 SPLIT_PART = 0.05  # of a split: shape and foot of what causes it are not known
