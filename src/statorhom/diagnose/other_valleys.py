@@ -30,6 +30,7 @@ from statorhom.diagnose.single_effects import is_a_field
 from statorhom.errors import StatorhomError
 
 VALLEYS = 2  # that are followed, the best first
+GAIN = 100.0  # of the objective, by which models of its own may better what its common one leaves
 
 
 def in_other_valleys(
@@ -48,13 +49,15 @@ def in_other_valleys(
     field = next((e for e in found if is_a_field(e.refit.hypothesis, e.refit.z)), None)
     if field is None or not is_poor(base.free):
         return list(found)
-    if field is not found[0] and (found[0].adequacy_but_one > ADEQUATE or _costs_much(base)):
+    # a row that may be gross is no reason to stop: in the right valley it may be none
+    if field is not found[0] and (found[0].adequacy > ADEQUATE or _costs_much(base)):
         return list(found)
-    hypothesis = field.refit.hypothesis
+    hypothesis, leading = field.refit.hypothesis, found[0].refit.objective
     begun = blank(hypothesis, hypothesis.candidates)
-    again = side_by_side(partial(_in_valley, begun), base.valleys[:VALLEYS], [begun, *begun.shared])
+    follow = partial(_in_valley, begun, least=leading)
+    again = side_by_side(follow, base.valleys[:VALLEYS], [begun, *begun.shared])
     best = min((r for r in again if r is not None), key=lambda r: r.objective, default=None)
-    if best is None:
+    if best is None or best.objective > leading + GAIN:
         return list(found)
     own = sharpened(explained(best, counts)).refit
     if own.objective >= field.refit.objective:
@@ -68,8 +71,11 @@ def _costs_much(base: Baseline) -> bool:
     return len(base.free.hypothesis.study.stages) > 1
 
 
-def _in_valley(hypothesis: Hypothesis, constants: np.ndarray) -> Refit | None:
-    """The optimum next to other constants, from the best magnitude in wide valleys, in a model of its own."""
+def _in_valley(hypothesis: Hypothesis, constants: np.ndarray, *, least: float) -> Refit | None:
+    """The optimum next to other constants, from the best magnitude in wide valleys, in a model of its own.
+
+    What leaves more in wide valleys than another effect does in narrow ones is given up: narrow ones leave more.
+    """
     points = [np.r_[constants, start] for start in starts(hypothesis.study, hypothesis.candidates[-1])]
     try:
         own = in_its_own_model(hypothesis, points[0])
@@ -77,4 +83,6 @@ def _in_valley(hypothesis: Hypothesis, constants: np.ndarray) -> Refit | None:
         return None
     wide = [r for z in points if (r := widened(own, z)) is not None]
     rough = min(wide, key=lambda r: r.objective, default=None)
-    return None if rough is None else through_wide_valleys(own, rough.z, rough)
+    if rough is None or rough.objective > least:
+        return None
+    return through_wide_valleys(own, rough.z, rough)
