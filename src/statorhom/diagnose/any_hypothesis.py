@@ -61,7 +61,7 @@ class AnyHypothesis(ABC):
     candidates : effects added.
     left_out : groups of features (`Feature.group`) that the residuals do not see.
     held : test → partners of its modes; None to pair anew.
-    missed : -2 ln of the chance that the tests did not find the predicted modes that have no partner.
+    missed : -2 ln of the chance that the tests found the partners of their modes, and no others that were predicted.
     discrepancy : relative standard deviation added to all frequencies: makes the valleys wide enough to be found.
     trained : whether bases hold the local fields that an effect asks for (`Action.training`), and machines of other
         dimensions are solved. Both are dear, and what an effect promises can be told without them.

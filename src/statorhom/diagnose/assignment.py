@@ -1,4 +1,4 @@
-"""Which predicted mode every measured one is, by name and frequency; and what it means that some were not found."""
+"""Which predicted mode every measured one is, by name and frequency."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
-from statorhom.identify.stage_problem import FOUND, GATE, HALF_FOUND, LABELLED_GATE, PAIRING_SD
+from statorhom.identify.stage_problem import GATE, LABELLED_GATE, PAIRING_SD
 from statorhom.model.convergence import ModeKey
 from statorhom.modes.pairing import DOUBLET_SPLIT, pair
 from statorhom.study.modal_table import MeasuredMode
@@ -109,14 +109,3 @@ def _as_seen(mode: PredictedMode, modes: Sequence[MeasuredMode]) -> PredictedMod
         if row.order == mode.order and row.axial in away:
             away[row.axial] = min(away[row.axial], abs(np.log(row.frequency_hz) - mode.log_f))
     return replace(mode, counted=min(away, key=away.__getitem__))
-
-
-def missed_cost(test: MeasuredTest, keys: Keys, predicted: Mapping[ModeKey, PredictedMode]) -> float:
-    """-2 ln of the chance that a test found none of the visible modes of its band that have no partner."""
-    band = [mode.frequency_hz for mode in test.modes]
-    chances = [
-        1.0 - FOUND * mode.mode.visibility / (mode.mode.visibility + HALF_FOUND)
-        for key, mode in predicted.items()
-        if min(band) < mode.frequency_hz < max(band) and key not in keys
-    ]
-    return float(-2.0 * np.sum(np.log(chances)))

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.diagnose.any_hypothesis import AnyHypothesis
-from statorhom.diagnose.assignment import NEAR, Keys, assigned, missed_cost
+from statorhom.diagnose.assignment import NEAR, Keys, assigned
 from statorhom.diagnose.constants import sinking_of
 from statorhom.diagnose.counted_planes import counted_at_planes
 from statorhom.diagnose.damping import (
@@ -23,6 +23,7 @@ from statorhom.diagnose.damping import (
     with_shares,
 )
 from statorhom.diagnose.density_features import density_features
+from statorhom.diagnose.detection import detection_cost
 from statorhom.diagnose.feature import Feature
 from statorhom.diagnose.features import free_features, loading, shift_features, with_rows
 from statorhom.diagnose.followed_modes import Names, names_of, with_partners
@@ -141,7 +142,7 @@ class Hypothesis(AnyHypothesis):
     ) -> Hypothesis:
         """With partners of free tests too, no farther away than `reach` says."""
         keys = {test.name: assigned(test, self.modes(test, actions), found, reach) for test, found in free}
-        missed = sum(missed_cost(test, keys[test.name], found) for test, found in free)
+        missed = sum(detection_cost(test, keys[test.name], found) for test, found in free)
         return replace(self, held={**(self.held or {}), **keys}, missed=missed)
 
     def _partners(
