@@ -206,14 +206,17 @@ def _words(f: Feature) -> str:
 
 
 def feature_rows(base: Refit, best: Refit) -> tuple[FeatureRow, ...]:
-    """All features that both have, measured and predicted."""
+    """All features that both have, measured and predicted.
+
+    The two may take a line for different modes of one name, and two lines for one mode or for two.
+    """
     stages = {t.name: s.name for s in base.hypothesis.study.stages for t in s.tests}
     after: dict[tuple[str, object, str], list[Feature]] = {}
     for f in best.hypothesis.features(best.z):
-        after.setdefault((f.test, f.key, f.kind), []).append(f)
+        after.setdefault(_measured(f), []).append(f)
     rows = []
     for f in base.hypothesis.features(base.z):
-        same = after.get((f.test, f.key, f.kind))
+        same = after.get(_measured(f))
         if f.key is None or f.lost or not same or same[0].lost:
             continue
         twin = same.pop(0)
@@ -230,6 +233,11 @@ def feature_rows(base: Refit, best: Refit) -> tuple[FeatureRow, ...]:
             )
         )
     return tuple(rows)
+
+
+def _measured(f: Feature) -> tuple[str, object, str]:
+    """What a feature was measured of: its lines, or its mode where these have no labels."""
+    return f.test, f.rows or f.key, f.kind
 
 
 def constant_rows(base: Refit, best: Refit) -> tuple[ConstantRow, ...]:
