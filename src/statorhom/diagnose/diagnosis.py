@@ -51,6 +51,7 @@ from statorhom.diagnose.report_rows import (
 from statorhom.diagnose.resampling import stability
 from statorhom.diagnose.scan import Scan
 from statorhom.diagnose.second_effects import confirmed_pairs
+from statorhom.diagnose.sharper import BEHIND
 from statorhom.diagnose.side_by_side import processes
 from statorhom.diagnose.simpler import by_criterion, simpler_fits
 from statorhom.geometry.tested_object import ObjectGeometry, RingGeometry
@@ -156,14 +157,23 @@ def _with_pairs(
 ) -> tuple[list[Explanation], bool]:
     """Single effects and pairs, the best first, and whether unseen modes confirm a pair that leads."""
     found = list(leading.found)
+    alone = _stands_alone(found)
+    if alone:
+        found = approach.refined(found, leading.base.valleys, counts)
     hidden, confirmed = beside_hidden_materials(leading, found[0], counts, seed)
     if hidden and hidden[0].adequacy_but_one > ADEQUATE:
         # a model of its own would not bring any single effect so far
         return _instead(found, hidden), confirmed
-    if _is_open(found):
+    if not alone and _is_open(found):
         found = approach.refined(found, leading.base.valleys, counts)
     pairs, confirmed = confirmed_pairs(leading, found[0], counts, seed)
     return _instead(found, pairs), confirmed
+
+
+def _stands_alone(found: Sequence[Explanation]) -> bool:
+    """Whether what leads is so far ahead that it comes first: in a model of its own it may explain everything."""
+    first, rest = found[0], others(found[0], found)
+    return first.adequacy_but_one < WELL and all(e.log_evidence < first.log_evidence - BEHIND for e in rest)
 
 
 def _instead(found: Sequence[Explanation], better: Sequence[Explanation]) -> list[Explanation]:
