@@ -9,11 +9,11 @@ import numpy as np
 from statorhom.diagnose.assignment import Keys
 from statorhom.diagnose.measured import MeasuredTest
 from statorhom.diagnose.prediction import PredictedMode
-from statorhom.identify.stage_problem import FOUND, HALF_FOUND
+from statorhom.identify.stage_problem import chance_to_find
 from statorhom.model.convergence import ModeKey
 
 HIDDEN = 1e-3  # visibility that a mode counts as having at least: a coarse ring says little of so small ones
-CLEAR = FOUND / (1.0 + HALF_FOUND)  # chance that a test finds a mode of a ring's radial motion
+CLEAR = chance_to_find(1.0)  # of a ring's radial motion
 
 
 def detection_cost(test: MeasuredTest, keys: Keys, predicted: Mapping[ModeKey, PredictedMode]) -> float:
@@ -23,18 +23,16 @@ def detection_cost(test: MeasuredTest, keys: Keys, predicted: Mapping[ModeKey, P
     nothing no accelerometer shows.
     """
     band = [mode.frequency_hz for mode in test.modes]
+    lowest, highest = min(band), max(band)
     found = {key for key in keys if key is not None and key in predicted}
-    partners = [_detection(predicted[key]) for key in found]
+    partners = [_chance(predicted[key]) / CLEAR for key in found]
     others = [
-        1.0 - _detection(mode)
+        1.0 - _chance(mode)
         for key, mode in predicted.items()
-        if min(band) < mode.frequency_hz < max(band) and key not in found
+        if lowest < mode.frequency_hz < highest and key not in found
     ]
-    clear = len(partners) * np.log(CLEAR)
-    return float(-2.0 * (np.sum(np.log(others)) + np.sum(np.log(partners)) - clear))
+    return float(-2.0 * np.sum(np.log([*partners, *others])))
 
 
-def _detection(mode: PredictedMode) -> float:
-    """Chance that a test finds a mode."""
-    visibility = max(mode.mode.visibility, HIDDEN)
-    return FOUND * visibility / (visibility + HALF_FOUND)
+def _chance(mode: PredictedMode) -> float:
+    return chance_to_find(max(mode.mode.visibility, HIDDEN))

@@ -31,6 +31,11 @@ EXPECTED = 0.2  # visibility from which on a test would rather find a mode
 FOUND, HALF_FOUND = 0.8, 0.1
 
 
+def chance_to_find(visibility: float) -> float:
+    """Chance that a test finds a mode of this visibility."""
+    return FOUND * visibility / (visibility + HALF_FOUND)
+
+
 class NamedByMode:
     """Something that is known by the names of the simulated mode that it holds."""
 
@@ -259,7 +264,7 @@ class StageProblem(Problem):
         """−2 ln of the chance that the test found none of the visible modes that it did not find."""
         top = max(mode.frequency_hz for mode in self.measured)
         chances = [
-            1.0 - FOUND * mode.mode.visibility / (mode.mode.visibility + HALF_FOUND)
+            1.0 - chance_to_find(mode.mode.visibility)
             for mode in simulated
             if mode.frequency_hz < top and mode.key is not None and mode.key not in keys
         ]
