@@ -52,6 +52,24 @@ ALLOWED["cli"] = {
 ALLOWED["__init__"] = {"errors", "api"}
 ALLOWED["__main__"] = {"cli"}
 
+# folders of the diagnosis, in the order in which data goes through them; its own files stand above all of these
+DIAGNOSIS = (
+    "processes",
+    "measured",
+    "bases",
+    "contacts",
+    "stages",
+    "predicted",
+    "features",
+    "fits",
+    "located",
+    "next_measurement",
+    "evidence",
+    "searches",
+    "coupons",
+)
+OWN_FILES = {path.stem for path in (SOURCE / "diagnose").glob("*.py")}
+
 LONGEST_FILE, LONGEST_FUNCTION = 350, 60
 
 
@@ -62,6 +80,11 @@ def part(path: Path) -> str:
 
 def imports(path: Path) -> Iterator[str]:
     """Parts of the package that a file imports, inside functions too."""
+    return (name.split(".")[0] for name in imported(path))
+
+
+def imported(path: Path) -> Iterator[str]:
+    """Names below the package that a file imports, inside functions too."""
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         names = []
         if isinstance(node, ast.Import):
@@ -72,7 +95,7 @@ def imports(path: Path) -> Iterator[str]:
         for name in names:
             head, *rest = name.split(".")
             if head == "statorhom":
-                yield rest[0] if rest else "__init__"
+                yield ".".join(rest) or "__init__"
 
 
 def identified(path: Path) -> str:
@@ -92,6 +115,21 @@ def test_every_folder_is_a_package() -> None:
 def test_imports_only_what_lies_before(path: Path) -> None:
     mine = part(path)
     assert set(imports(path)) - {mine} <= ALLOWED[mine]
+
+
+def test_the_diagnosis_has_no_other_folders() -> None:
+    folders = {
+        path.parent.relative_to(SOURCE / "diagnose").parts for path in (SOURCE / "diagnose").rglob("*.py")
+    }
+    assert folders == {(), *((name,) for name in DIAGNOSIS)}
+
+
+@pytest.mark.parametrize("path", [f for f in FILES if part(f) == "diagnose"], ids=identified)
+def test_a_diagnosis_goes_one_way(path: Path) -> None:
+    _, *folder, _ = path.relative_to(SOURCE).parts
+    before = DIAGNOSIS[: DIAGNOSIS.index(folder[0]) + 1] if folder else (*DIAGNOSIS, *OWN_FILES)
+    within = {name.split(".")[1] for name in imported(path) if name.startswith("diagnose.")}
+    assert within <= set(before)
 
 
 def test_parts_do_not_go_in_circles() -> None:

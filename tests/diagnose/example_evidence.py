@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from statorhom.diagnose.decision import Evidence
-from statorhom.diagnose.held_out import HeldOut
+from statorhom.diagnose.evidence.decision import Evidence
+from statorhom.diagnose.evidence.held_out import HeldOut
 
 GROUPS = tuple(("test", (r, 0, 0)) for r in range(2, 8))
 FALLS = HeldOut(GROUPS, (2.0, 3.0, 1.5, 2.5, 2.0, 3.0), (0.2, 0.3, 0.1, 0.2, 0.3, 0.2), (0.1,) * 6)

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 
 from small_stators import MATERIALS, stator_mesh
 
-from statorhom.diagnose.ring_basis import ring_basis
-from statorhom.diagnose.stage_model import StageModel
+from statorhom.diagnose.bases.ring_basis import ring_basis
+from statorhom.diagnose.stages.stage_model import StageModel
 from statorhom.identify.model_error import ModelError
 from statorhom.mesh import uniform
 from statorhom.model.affine import Materials, assemble

@@ -8,12 +8,12 @@ import numpy as np
 
 from statorhom import Study
 from statorhom.command_line.template import write_template
-from statorhom.diagnose.constants import held_by_lines, study_constants
-from statorhom.diagnose.features import SCATTER_SD
-from statorhom.diagnose.hypothesis import Hypothesis
-from statorhom.diagnose.recorded import measured_tests
-from statorhom.diagnose.stage_model import stage_model
-from statorhom.diagnose.study_model import StudyModel
+from statorhom.diagnose.features.mode_features import SCATTER_SD
+from statorhom.diagnose.fits.hypothesis import Hypothesis
+from statorhom.diagnose.measured.recorded import measured_tests
+from statorhom.diagnose.stages.constants import held_by_lines, study_constants
+from statorhom.diagnose.stages.stage_model import stage_model
+from statorhom.diagnose.stages.study_model import StudyModel
 from statorhom.geometry.stator import stator_geometry
 from statorhom.identify.stage_setup import stage_setup
 from statorhom.mesh import uniform

@@ -5,7 +5,7 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
-from statorhom.diagnose.feature import Feature
+from statorhom.diagnose.measured.feature import Feature
 from statorhom.diagnose.report_rows import feature_rows
 
 TEST = "wound-free"

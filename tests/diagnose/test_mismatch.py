@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from statorhom.diagnose.feature import Feature
+from statorhom.diagnose.measured.feature import Feature
 from statorhom.diagnose.report_rows import mismatch
 
 

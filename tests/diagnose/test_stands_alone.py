@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from statorhom.diagnose import diagnosis as module
-from statorhom.diagnose.explanations import Explanation
+from statorhom.diagnose.fits.explanations import Explanation
 
 
 class Led(Explanation[Any]):

@@ -10,10 +10,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from statorhom.diagnose.approach import RING, Approach
-from statorhom.diagnose.baseline import Baseline
 from statorhom.diagnose.coupons.body_approach import BODY
-from statorhom.diagnose.decision import (
+from statorhom.diagnose.evidence.decision import (
     NEAR_RIVAL,
     Evidence,
     Verdict,
@@ -21,25 +19,28 @@ from statorhom.diagnose.decision import (
     others,
     within_bounds,
 )
-from statorhom.diagnose.explanations import (
+from statorhom.diagnose.evidence.free_discrepancy import discrepancy_evidence
+from statorhom.diagnose.evidence.gross_rows import without_gross_rows
+from statorhom.diagnose.evidence.held_out import HeldOut
+from statorhom.diagnose.evidence.held_out_lines import unseen_modes
+from statorhom.diagnose.evidence.held_out_name import held_out_names, renames_alone
+from statorhom.diagnose.evidence.passed_rules import rule_rows
+from statorhom.diagnose.evidence.resampling import stability
+from statorhom.diagnose.evidence.simpler import by_criterion, simpler_fits
+from statorhom.diagnose.fits.baseline import Baseline
+from statorhom.diagnose.fits.explanations import (
     ADEQUATE,
     WELL,
     Explanation,
     effect_evidence,
     nothing,
 )
-from statorhom.diagnose.free_discrepancy import discrepancy_evidence
-from statorhom.diagnose.gross_rows import without_gross_rows
-from statorhom.diagnose.held_out import HeldOut
-from statorhom.diagnose.held_out_lines import unseen_modes
-from statorhom.diagnose.held_out_name import held_out_names, renames_alone
-from statorhom.diagnose.hidden_materials import beside_hidden_materials
-from statorhom.diagnose.leading_effects import Leading, leading_effects
-from statorhom.diagnose.measured import MeasuredTest
-from statorhom.diagnose.next_measurement import Choice
-from statorhom.diagnose.one_line_errors import one_line_errors
-from statorhom.diagnose.passed_rules import rule_rows
-from statorhom.diagnose.place_rows import summaries
+from statorhom.diagnose.located.place_rows import summaries
+from statorhom.diagnose.located.scan import Scan
+from statorhom.diagnose.measured.measured_test import MeasuredTest
+from statorhom.diagnose.next_measurement.choice import Choice
+from statorhom.diagnose.processes.one_line_errors import one_line_errors
+from statorhom.diagnose.processes.side_by_side import processes
 from statorhom.diagnose.report_rows import (
     as_declared,
     constant_rows,
@@ -48,12 +49,11 @@ from statorhom.diagnose.report_rows import (
     frequency_errors,
     mismatch,
 )
-from statorhom.diagnose.resampling import stability
-from statorhom.diagnose.scan import Scan
-from statorhom.diagnose.second_effects import confirmed_pairs
-from statorhom.diagnose.sharper import BEHIND
-from statorhom.diagnose.side_by_side import processes
-from statorhom.diagnose.simpler import by_criterion, simpler_fits
+from statorhom.diagnose.searches.approach import RING, Approach
+from statorhom.diagnose.searches.hidden_materials import beside_hidden_materials
+from statorhom.diagnose.searches.leading_effects import Leading, leading_effects
+from statorhom.diagnose.searches.second_effects import confirmed_pairs
+from statorhom.diagnose.searches.sharper import BEHIND
 from statorhom.geometry.tested_object import ObjectGeometry, RingGeometry
 from statorhom.identify.announce import Announce, silent
 from statorhom.identify.settings import Settings

@@ -6,11 +6,11 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from statorhom.diagnose.explanations import Explanation
-from statorhom.diagnose.feature import Feature
-from statorhom.diagnose.held_out_modes import LACKING, lacked
-from statorhom.diagnose.refit import Refit
-from statorhom.diagnose.sides import one_by_one, opposite_location
+from statorhom.diagnose.evidence.held_out_modes import LACKING, lacked
+from statorhom.diagnose.fits.explanations import Explanation
+from statorhom.diagnose.fits.refit import Refit
+from statorhom.diagnose.located.sides import one_by_one, opposite_location
+from statorhom.diagnose.measured.feature import Feature
 from statorhom.materials.typical_ranges import Z95
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.declared import DeclaredEffect

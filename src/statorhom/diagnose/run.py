@@ -6,7 +6,7 @@ from pathlib import Path
 
 from statorhom.diagnose.apply import check_not_the_study, write_amended
 from statorhom.diagnose.diagnosis import diagnose
-from statorhom.diagnose.recorded import measured_tests
+from statorhom.diagnose.measured.recorded import measured_tests
 from statorhom.diagnose.refit_chain import with_refitted_chain
 from statorhom.geometry.tested_object import object_geometry
 from statorhom.identify.announce import Announce, silent

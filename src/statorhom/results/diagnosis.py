@@ -235,7 +235,7 @@ class ConstantRow(_Part):
 
 
 class SimplerRow(_Part):
-    """What simpler methods make of the same data (`statorhom.diagnose.simpler`)."""
+    """What simpler methods make of the same data (`statorhom.diagnose.evidence.simpler`)."""
 
     modulus_alone_held_out_percent: float | None
     all_constants_held_out_percent: float | None

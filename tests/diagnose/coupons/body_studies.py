@@ -8,11 +8,11 @@ import numpy as np
 
 from concealed_coupons import CLOTH, SIZE
 from coupon_study import PLATE, study_text, table_text, write_study
-from statorhom.diagnose.constants import study_constants
 from statorhom.diagnose.coupons.body_hypothesis import BodyHypothesis
 from statorhom.diagnose.coupons.body_stage import body_stage, with_reference
 from statorhom.diagnose.coupons.body_study import BodyStudy
-from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.measured.measured_test import MeasuredTest
+from statorhom.diagnose.stages.constants import study_constants
 from statorhom.geometry.tested_object import object_geometry
 from statorhom.identify.settings import Settings
 from statorhom.identify.stage_setup import stage_setup

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from body_studies import plate_hypothesis, write_plate
 
-from statorhom.diagnose.constants import new_constants, study_constants
 from statorhom.diagnose.coupons.body_hypothesis import BodyHypothesis
-from statorhom.diagnose.derivatives import difference, jacobian
-from statorhom.diagnose.measured import MeasuredPoints
+from statorhom.diagnose.fits.derivatives import difference, jacobian
+from statorhom.diagnose.measured.measured_test import MeasuredPoints
+from statorhom.diagnose.stages.constants import new_constants, study_constants
 from statorhom.geometry.tested_object import object_geometry
 from statorhom.identify.stage_setup import stage_setup
 from statorhom.physics.library import all_candidates
@@ -57,7 +57,7 @@ def lumped_at(h: BodyHypothesis, **changes: float) -> np.ndarray:
 
 
 def test_slopes_are_those_of_differences(seen: BodyHypothesis, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("statorhom.diagnose.derivatives.EFFECT_STEP", 1e-4)
+    monkeypatch.setattr("statorhom.diagnose.fits.derivatives.EFFECT_STEP", 1e-4)
     h = with_lump(seen)
     z = lumped_at(h, mass_kg=0.008)
     h = h.paired(z)

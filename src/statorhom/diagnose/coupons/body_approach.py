@@ -7,15 +7,15 @@ from typing import Any, cast
 
 import numpy as np
 
-from statorhom.diagnose.approach import Approach
-from statorhom.diagnose.baseline import Baseline
 from statorhom.diagnose.coupons.body_baseline import body_baseline, sharpened_body
 from statorhom.diagnose.coupons.body_hypothesis import BodyHypothesis
 from statorhom.diagnose.coupons.body_place import body_located
-from statorhom.diagnose.explanations import Explanation, explained
-from statorhom.diagnose.measured import MeasuredTest
-from statorhom.diagnose.next_measurement import Choice, said_of
-from statorhom.diagnose.refit import Refit
+from statorhom.diagnose.fits.baseline import Baseline
+from statorhom.diagnose.fits.explanations import Explanation, explained
+from statorhom.diagnose.fits.refit import Refit
+from statorhom.diagnose.measured.measured_test import MeasuredTest
+from statorhom.diagnose.next_measurement.choice import Choice, said_of
+from statorhom.diagnose.searches.approach import Approach
 from statorhom.geometry.tested_object import ObjectGeometry
 from statorhom.identify.settings import Settings
 from statorhom.physics.plan import plan_of

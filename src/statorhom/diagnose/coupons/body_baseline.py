@@ -8,16 +8,16 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.diagnose.baseline import SAME_HZ, SNAPSHOTS
-from statorhom.diagnose.constants import Constants, new_constants, study_constants
 from statorhom.diagnose.coupons.body_hypothesis import BodyHypothesis
 from statorhom.diagnose.coupons.body_stage import body_stage, with_reference
 from statorhom.diagnose.coupons.body_study import BodyStudy
-from statorhom.diagnose.explanations import Explanation
-from statorhom.diagnose.features import SCATTER_SD
-from statorhom.diagnose.measured import MeasuredTest
-from statorhom.diagnose.refit import Refit, evaluated, refit
-from statorhom.diagnose.valleys import optima, trials_around
+from statorhom.diagnose.features.mode_features import SCATTER_SD
+from statorhom.diagnose.fits.baseline import SAME_HZ, SNAPSHOTS
+from statorhom.diagnose.fits.explanations import Explanation
+from statorhom.diagnose.fits.refit import Refit, evaluated, refit
+from statorhom.diagnose.fits.valleys import optima, trials_around
+from statorhom.diagnose.measured.measured_test import MeasuredTest
+from statorhom.diagnose.stages.constants import Constants, new_constants, study_constants
 from statorhom.errors import IdentificationError, StatorhomError
 from statorhom.geometry.tested_object import ObjectGeometry
 from statorhom.identify.settings import Settings

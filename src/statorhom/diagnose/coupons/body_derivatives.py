@@ -14,10 +14,10 @@ import numpy.typing as npt
 from statorhom.diagnose.coupons.body_hypothesis import BodyHypothesis
 from statorhom.diagnose.coupons.body_prediction import PredictedBody
 from statorhom.diagnose.coupons.body_stage import BodyStage
-from statorhom.diagnose.derivatives import difference, jacobian
-from statorhom.diagnose.feature import Feature
-from statorhom.diagnose.frequency_slopes import slopes_of
-from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.fits.derivatives import difference, jacobian
+from statorhom.diagnose.fits.frequency_slopes import slopes_of
+from statorhom.diagnose.measured.feature import Feature
+from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.errors import StatorhomError
 from statorhom.model.affine import Materials, hooke_coefficients
 from statorhom.model.modal.modal_body import ModalBody, hooke_factors, mass_factors

@@ -12,9 +12,9 @@ import numpy.typing as npt
 from statorhom.diagnose.coupons.body_pairing import Partners
 from statorhom.diagnose.coupons.body_prediction import PredictedBody
 from statorhom.diagnose.coupons.body_stage import BodyStage
-from statorhom.diagnose.feature import LOST_UNNAMED, NUMBERED, Feature
-from statorhom.diagnose.features import SHIFT_OWN, SHIFT_PART, measured_sd
-from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.features.mode_features import measured_sd
+from statorhom.diagnose.measured.feature import LOST_UNNAMED, NUMBERED, Feature
+from statorhom.diagnose.measured.measured_test import SHIFT_OWN, SHIFT_PART, MeasuredTest
 from statorhom.model.convergence import ModeKey
 
 FloatArray = npt.NDArray[np.float64]

@@ -8,14 +8,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.diagnose.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.coupons.body_features import body_features
 from statorhom.diagnose.coupons.body_pairing import Partners, body_partners, missed
 from statorhom.diagnose.coupons.body_prediction import PredictedBody, predicted_body
 from statorhom.diagnose.coupons.body_stage import BodyStage
 from statorhom.diagnose.coupons.body_study import BodyStudy
-from statorhom.diagnose.feature import Feature
-from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.fits.any_hypothesis import AnyHypothesis
+from statorhom.diagnose.measured.feature import Feature
+from statorhom.diagnose.measured.measured_test import MeasuredTest
 
 FloatArray = npt.NDArray[np.float64]
 

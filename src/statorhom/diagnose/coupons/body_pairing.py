@@ -9,7 +9,7 @@ import numpy.typing as npt
 from scipy.optimize import linear_sum_assignment
 
 from statorhom.diagnose.coupons.body_prediction import PredictedBody
-from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.identify.stage_problem import EXPECTED, FOUND, HALF_FOUND, PAIRING_SD
 from statorhom.modes.pairing import pair
 

@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.diagnose.coupons.body_hypothesis import BodyHypothesis
-from statorhom.diagnose.explanations import Explanation
-from statorhom.diagnose.refit import Refit, refit_objective
+from statorhom.diagnose.fits.explanations import Explanation
+from statorhom.diagnose.fits.refit import Refit, refit_objective
 from statorhom.errors import StatorhomError
 from statorhom.physics.plan import Plan, plan_of
 from statorhom.results.diagnosis import PlanLocation

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from statorhom.diagnose.coupons.body_stage import BodyStage
 from statorhom.diagnose.coupons.body_study import BodyStudy
-from statorhom.diagnose.measured import MeasuredTest
+from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.model.modal.acted_body import BodyModes
 from statorhom.physics.action import Action
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.diagnose.features import own_sd
-from statorhom.diagnose.measured import MeasuredTest
-from statorhom.diagnose.stage_model import BAND, FINER
+from statorhom.diagnose.features.mode_features import own_sd
+from statorhom.diagnose.measured.measured_test import MeasuredTest
+from statorhom.diagnose.stages.stage_model import BAND, FINER
 from statorhom.errors import IdentificationError
 from statorhom.identify.model_error import ModelError
 from statorhom.identify.refinement import MeshSeries

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from statorhom.diagnose.constants import Constants
 from statorhom.diagnose.coupons.body_stage import BodyStage
+from statorhom.diagnose.stages.constants import Constants
 from statorhom.identify.stage_materials import DENSITY
 from statorhom.identify.stage_setup import StageSetup
 from statorhom.model.affine import Materials

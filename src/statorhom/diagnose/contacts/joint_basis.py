@@ -1,0 +1,203 @@
+"""A step whose parts meet over a contact of finite stiffness: its modes at any materials and any contact.
+
+The mesh is split along the contact (`statorhom.model.broken.interface`). Small bases per harmonic hold the modes at
+contacts from a bond down to parts that hardly touch; materials and contact stiffness enter them linearly, so that an
+evaluation costs milliseconds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
+
+import numpy as np
+
+from statorhom.diagnose.bases.ring_basis import RingBasis, RingModes, mark_of, ring_basis
+from statorhom.diagnose.contacts.joint_arc import ArcGroup, JoinedMode, Weakened, arc_groups
+from statorhom.diagnose.contacts.joint_born import born_modes, surface
+from statorhom.diagnose.contacts.joint_condensed import MOST, CondensedGroup, Sample, condensed
+from statorhom.diagnose.contacts.joint_fields import with_local_fields
+from statorhom.diagnose.contacts.joint_training import with_arcs
+from statorhom.diagnose.measured.feature import SINGLE
+from statorhom.diagnose.processes.side_by_side import side_by_side
+from statorhom.mesh.hex_mesh import HalfPitchMesh
+from statorhom.model.affine import Materials, assemble
+from statorhom.model.blas_threads import one_blas_thread
+from statorhom.model.broken.interface import contact, split
+from statorhom.model.broken.pieces import Pieces
+from statorhom.model.convergence import ModeKey, mode_keys
+from statorhom.model.free_modes import total_mass
+from statorhom.model.kept import Kept
+from statorhom.model.stator_mode import StatorMode
+from statorhom.physics.action import Joint
+
+LADDER = (1e14, 1e12, 1e11, 1e10)  # N/m³: contacts whose modes span the bases
+SOLUTIONS = 64  # that are kept
+
+
+@dataclass(frozen=True, eq=False)
+class JointBasis:
+    """The bases of a step with a joint.
+
+    Parameters
+    ----------
+    ring : on the split mesh, without the contact.
+    pieces : of the half pitch, normal and tangential contact per unit stiffness (m²).
+    springs : (2, k, k) per problem, the same in the bases.
+    few : the groups that an arc couples, in few vectors; empty where all of the bases count.
+    """
+
+    ring: RingBasis
+    pieces: tuple[Pieces, Pieces]
+    springs: tuple[np.ndarray, ...]
+    few: tuple[CondensedGroup, ...] = ()
+    _latest: Kept = field(default_factory=partial(Kept, SOLUTIONS), repr=False)
+
+    @cached_property
+    def groups(self) -> tuple[ArcGroup, ...]:
+        """What an arc couples."""
+        return tuple(arc_groups(self.ring, self.pieces))
+
+    def solve(self, materials: Materials, joint: Joint) -> dict[ModeKey, JoinedMode]:
+        """Named modes of the band.
+
+        Raises
+        ------
+        SolverError
+            If a mass or stiffness is not definite.
+        """
+        centre = 0.0 if joint.arc is None else joint.arc[0]
+        # the place of an arc turns the splits alone: all places are solved as one
+        still = replace(joint, arc=None if joint.arc is None else (0.0, joint.arc[1]), loss_factor=0.0)
+        mark = mark_of(materials)
+        solved = self._latest.once((mark, still), lambda: self._solved(materials, still))
+        return {
+            key: replace(one, split=complex(one.split * np.exp(2j * key[0] * centre)))
+            for key, one in solved.items()
+        }
+
+    def _solved(self, materials: Materials, joint: Joint) -> dict[ModeKey, JoinedMode]:
+        with one_blas_thread():
+            return self._modes(materials, joint)
+
+    def _modes(self, materials: Materials, joint: Joint) -> dict[ModeKey, JoinedMode]:
+        even = self._even(materials, joint)
+        keys = mode_keys(even.modes)
+        if joint.arc is None or joint.ratio == 1.0:
+            return {
+                key: JoinedMode(mode, float(np.log(mode.frequency_hz)), 0j, even.slope(mode, materials))
+                for key, mode in keys.items()
+            }
+        found: dict[ModeKey, JoinedMode] = {}
+        born: list[JoinedMode] = []
+        place = len(self.ring.problems)
+        for number, group in enumerate(self.groups):
+            weakened = self._weakened(number, even, materials, joint)
+            own = {key: mode for key, mode in keys.items() if mode.problem in group.numbers}
+            named, others = self._named(weakened, own, place, materials)
+            found |= named
+            born += others
+            place += len(weakened.families)
+        return found | _with_names(born)
+
+    def _weakened(self, number: int, even: RingModes, materials: Materials, joint: Joint) -> Weakened:
+        """Modes of one group."""
+        if self.few:
+            return self.few[number].weakened(even, joint, materials)
+        return self.groups[number].weakened(even, joint)
+
+    def condensed(self, samples: Sequence[tuple[Materials, Joint]], most: int = MOST) -> JointBasis:
+        """The same in the few vectors that the modes at some materials and arcs span; nearly right between them."""
+        top = (2 * np.pi * self.ring.highest_hz) ** 2
+        solved = side_by_side(self._weakened_groups, samples, self.ring.problems)
+        few = []
+        for group, weakened in zip(self.groups, zip(*solved, strict=True), strict=True):
+            own = [Sample(materials, w) for (materials, _), w in zip(samples, weakened, strict=True)]
+            few.append(condensed(group, self.ring.problems, own, top, most))
+        return JointBasis(self.ring, self.pieces, self.springs, tuple(few))
+
+    def _weakened_groups(self, sample: tuple[Materials, Joint]) -> list[Weakened]:
+        materials, joint = sample
+        with one_blas_thread():
+            even = self._even(materials, joint)
+            return [group.weakened(even, joint) for group in self.groups]
+
+    def _named(
+        self, weakened: Weakened, keys: Mapping[ModeKey, StatorMode], place: int, materials: Materials
+    ) -> tuple[dict[ModeKey, JoinedMode], list[JoinedMode]]:
+        """Modes of one axial parity that look like the even contact's, and all others."""
+        surfaces = [surface(family, self.ring.highest_hz) for family in weakened.families]
+        found: dict[ModeKey, JoinedMode] = {}
+        known: list[set[int]] = [set() for _ in surfaces]
+        for key, mode in keys.items():
+            members = [i for i in weakened.members(mode) if i is not None]
+            pairs = list(zip(surfaces, members, strict=False))
+            if len(members) < mode.multiplicity or not all(s.shows(i, mode) for s, i in pairs):
+                continue
+            found[key] = JoinedMode(mode, *weakened.response(members, materials))
+            for numbers, i in zip(known, members, strict=False):
+                numbers.add(i)
+        mass = total_mass(self.ring.model, materials)
+        born = [
+            one
+            for n, (seen, numbers) in enumerate(zip(surfaces, known, strict=True))
+            for one in born_modes(weakened, n, seen, numbers, place + n, mass, materials)
+        ]
+        return found, born
+
+    def _even(self, materials: Materials, joint: Joint) -> RingModes:
+        """Modes with the contact the same all around."""
+        matrices = []
+        for problem, springs in zip(self.ring.problems, self.springs, strict=True):
+            K, M = problem.matrices(materials)
+            matrices.append((K + joint.normal * springs[0] + joint.tangential * springs[1], M))
+        return self.ring.solve_matrices(matrices, materials)
+
+
+def _with_names(born: Sequence[JoinedMode]) -> dict[ModeKey, JoinedMode]:
+    """Ranks of modes that the even contact has not."""
+    ordered = sorted(born, key=lambda one: one.log_f)
+    keys = mode_keys(one.mode for one in ordered)
+    pairs = zip(keys, ordered, strict=True)
+    return {(order, axial, SINGLE + rank): one for (order, axial, rank), one in pairs}
+
+
+def joint_basis(
+    mesh: HalfPitchMesh,
+    regions: tuple[str, ...],
+    materials: Materials,
+    highest_hz: float,
+    orders: Sequence[int],
+    *,
+    may_differ: bool,
+    arcs: Sequence[Joint] = (),
+) -> JointBasis:
+    """Bases of a joint.
+
+    Parameters
+    ----------
+    mesh : of the half pitch, bonded.
+    regions : that get nodes of their own.
+    materials : whose modes span the bases.
+    highest_hz : upper end of the band.
+    orders : harmonics that are named.
+    may_differ : whether the contact may be weaker over an arc.
+    arcs : around θ = 0, near which it is predicted as the mesh has it; others, and all without, roughly.
+    """
+    apart = split(mesh, regions)
+    pieces = (contact(apart, regions, 1.0, 0.0).pieces, contact(apart, regions, 0.0, 1.0).pieces)
+    unit = [p.matrix(np.ones(len(p))) for p in pieces]
+    joints = [k * (unit[0] + unit[1]) for k in LADDER]
+    ring = ring_basis(assemble(apart), [materials], highest_hz, orders, joints)
+    if arcs:
+        ring = with_arcs(ring, pieces, materials, arcs)
+    elif may_differ:
+        ring = with_local_fields(ring, materials, unit[0] + unit[1])
+    springs = []
+    for problem in ring.problems:
+        images = problem.space.expand(problem.basis)
+        springs.append(
+            np.stack([problem.space.copies * (np.conj(images.T) @ (u @ images)).real for u in unit])
+        )
+    return JointBasis(ring, pieces, tuple(springs))

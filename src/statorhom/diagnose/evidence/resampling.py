@@ -1,0 +1,88 @@
+"""Does the same explanation win when data and beliefs are varied? By linearized refits of the best explanations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from statorhom.diagnose.evidence.decision import OVER_NOTHING, OVER_OTHERS
+from statorhom.diagnose.evidence.held_out_modes import WEIGHED
+from statorhom.diagnose.fits.explanations import Explanation
+from statorhom.diagnose.fits.refit import Refit, log_volume
+from statorhom.model.convergence import ModeKey
+
+FloatArray = npt.NDArray[np.float64]
+FACTORS = (0.5, 1.0, 2.0)  # of prior widths and of standard deviations
+DRAWS = 40
+KEPT = 0.8  # of the modes in each draw
+
+Observed = tuple[str, str | ModeKey | None]
+# What densities can be is known beforehand and no datum that a repeated measurement might lack.
+KNOWN: frozenset[Observed] = frozenset([WEIGHED])
+
+
+def stability(explanations: Sequence[Explanation], seed: int) -> float:
+    """Share of resamplings that the first of the explanations wins, of those in which something is detected.
+
+    Without the few modes that show an effect nothing is detected: that is no other winner. Neither is a rival that
+    does not lead by more than what tells two explanations apart.
+
+    Parameters
+    ----------
+    explanations : the winner, "nothing" and the best others.
+    """
+    if len(explanations) < 3:
+        return 1.0
+    refits = [e.compared or e.refit for e in explanations]
+    observed = [[f.observed for f in r.hypothesis.features(r.z)] for r in refits]
+    residuals = [r.hypothesis.residuals(r.z) for r in refits]
+    units = _units([rows for part in observed for rows in part if rows != KNOWN])
+    rng = np.random.default_rng(seed)
+    outcomes = []
+    for draw in range(DRAWS):
+        kept = rng.permutation(len(units))[: max(2, round(KEPT * len(units)))]
+        chosen = KNOWN.union(*(units[i] for i in kept))
+        noise, width = FACTORS[draw % 3], FACTORS[(draw // 3) % 3]
+        scores = []
+        for e, own, r, left in zip(explanations, observed, refits, residuals, strict=True):
+            rows = np.array([one <= chosen for one in own])
+            # an explanation's features may differ in number; what it says beside them is common to all
+            scores.append(resampled_evidence(r, left, rows, noise, width) + e.log_evidence - r.log_evidence)
+        outcomes.append(wins(scores))
+    counted = [won for won in outcomes if won is not None]
+    return float(np.mean(counted)) if counted else 1.0
+
+
+def _units(observed: Sequence[frozenset[Observed]]) -> list[frozenset[Observed]]:
+    """What is drawn together: lines that any explanation takes for one doublet, in a fixed order."""
+    units: list[frozenset[Observed]] = []
+    for rows in observed:
+        apart = [unit for unit in units if not unit & rows]
+        units = [*apart, rows.union(*(unit for unit in units if unit & rows))]
+    return sorted(units, key=lambda unit: sorted(map(str, unit)))
+
+
+def wins(scores: Sequence[float]) -> bool | None:
+    """Whether the first wins; None where nothing is detected. The second is "nothing", the rest are rivals."""
+    first, none, rival = scores[0], scores[1], max(scores[2:])
+    if max(first, rival) - none <= OVER_NOTHING:
+        return None
+    return rival - first <= OVER_OTHERS
+
+
+def resampled_evidence(
+    r: Refit, residuals: FloatArray, rows: npt.NDArray[np.bool_], noise: float, width: float
+) -> float:
+    """Laplace evidence with some rows, other noise and other prior widths, after one Gauss–Newton step."""
+    J, e = r.jacobian[rows] / noise, residuals[rows] / noise
+    prior = r.hypothesis.prior_weights
+    weights = prior / width**2
+    information = J.T @ J
+    step = -np.linalg.solve(information + np.diag(weights + 1e-9), J.T @ e + weights * r.z)
+    left, z = e + J @ step, r.z + step
+    charge = r.hypothesis.missed + float(np.sum(r.hypothesis.charges(r.z)[rows] ** 2))
+    objective = float(left @ left + np.sum(weights * z**2)) + charge
+    scale = -float(np.sum(prior > 0.0)) * float(np.log(width))
+    return -0.5 * objective + log_volume(information, weights) + scale

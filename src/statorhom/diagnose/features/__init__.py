@@ -1,0 +1,1 @@
+"""Measured against predicted, in standard deviations."""

@@ -1,0 +1,1 @@
+"""What the tests of a study measured, as the diagnosis sees it."""

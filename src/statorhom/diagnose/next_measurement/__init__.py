@@ -1,0 +1,1 @@
+"""Measurements that could be made next, and what each would tell."""

@@ -1,0 +1,1 @@
+"""What is independent in a diagnosis, side by side; what is dear, remembered."""

@@ -1,0 +1,47 @@
+"""The effects of a pair, each alone from the pair's constants.
+
+A second effect may do no more than lead the constants into a better valley, where the other one explains everything
+without it: beside the declared winding, whose constants had run away, neither was seen at its best.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from statorhom.diagnose.fits.explanations import PAIR_GAIN, Explanation, blank, explained, refitted
+
+
+def with_both_needed(pairs: Sequence[Explanation], counts: dict[str, int]) -> list[Explanation]:
+    """Pairs, the best first; where the best one gains too little over one of its effects alone, that one instead.
+
+    Parameters
+    ----------
+    pairs : the best first.
+    counts : effect → number of its candidates, over which its prior is spread.
+    """
+    singles = alone(pairs[0], counts) if pairs else []
+    if singles and singles[0].log_evidence > pairs[0].log_evidence - PAIR_GAIN:
+        return singles[:1]
+    return list(pairs)
+
+
+def alone(pair: Explanation, counts: dict[str, int]) -> list[Explanation]:
+    """Refits of each effect of a pair without the other one, in the pair's model, the best first.
+
+    Parameters
+    ----------
+    pair : two effects at their optimum.
+    counts : effect → number of its candidates, over which its prior is spread.
+    """
+    hypothesis, z = pair.refit.hypothesis, pair.refit.z
+    found = []
+    for left_out in range(len(hypothesis.candidates)):
+        rest = tuple(c for i, c in enumerate(hypothesis.candidates) if i != left_out)
+        kept = [i != left_out for i, _ in hypothesis.parameters]
+        start = np.r_[z[: hypothesis.constants], z[hypothesis.constants :][kept]]
+        if (again := refitted(blank(hypothesis, rest), start)) is not None:
+            found.append(replace(explained(again, counts), settled=pair.settled))
+    return sorted(found, key=lambda e: -e.log_evidence)

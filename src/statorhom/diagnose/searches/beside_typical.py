@@ -1,0 +1,88 @@
+"""What costs little, sought where its step's materials are as usual, where nothing explains the misfit.
+
+Without it the declared model may have fled: a soft end winding was a whole winding a tenth as stiff, with most modes
+without a partner. Beside that nothing explains anything, and in its basis the right winding would fit no better. So
+each step is solved anew with typical materials, and the effects on it are tried with materials all over the prior.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+
+from statorhom.diagnose.fits.explanations import ADEQUATE, Explanation, explained, nothing
+from statorhom.diagnose.fits.hypothesis import Hypothesis
+from statorhom.diagnose.fits.refit import Refit
+from statorhom.diagnose.located.scan import starts as scan_starts
+from statorhom.diagnose.processes.side_by_side import side_by_side
+from statorhom.diagnose.searches.refit_starts import CHEAP, Start, last_action, price, shared_by, start_of
+from statorhom.diagnose.searches.sharper import sharpened
+from statorhom.diagnose.searches.single_effects import MOSTLY, optima_elsewhere
+from statorhom.diagnose.searches.typical_materials import with_typical_materials
+from statorhom.physics.candidate import Candidate
+
+OWN_MODELS = 3  # of the best that are compared in models of their own
+NEAR = 60.0  # of the objective: what does not come so near to the best gets none
+
+
+def beside_typical_materials(
+    base: Refit, found: Sequence[Explanation], candidates: Sequence[Candidate], counts: dict[str, int]
+) -> list[Explanation]:
+    """Explanations beside other materials, the best first; none where one of them is no better than what is known.
+
+    Parameters
+    ----------
+    base : the declared model.
+    found : explanations beside it, the best first.
+    candidates : all effects.
+    counts : effect → number of its candidates, over which its prior is spread.
+    """
+    none = nothing(base)
+    best = found[0] if found else none
+    enough = max(best.adequacy_but_one, none.adequacy_but_one) > ADEQUATE
+    # what explains most of the misfit where the declared model stands says that it belongs there
+    leads = bool(found) and best.refit.objective < MOSTLY * base.objective
+    if enough or leads or not isinstance(base.hypothesis, Hypothesis):
+        return []
+    begun = [
+        start for stage in base.hypothesis.study.stages for start in _starts(base, stage.name, candidates)
+    ]
+    again = side_by_side(_best_anywhere, begun, shared_by(begun))
+    own = _in_own_models([r for r in again if r is not None], counts)
+    return own if own and own[0].log_evidence > best.log_evidence else []
+
+
+def _starts(base: Refit, stage: str, candidates: Sequence[Candidate]) -> list[Start]:
+    """A step's effects that cost little, in the model of its typical materials."""
+    own = [c for c in candidates if c.stage == stage and c.parameters]
+    begun = [start_of(base, c, scan_starts(base.hypothesis.study, c)[0]) for c in own]
+    cheap = [c for c, start in zip(own, begun, strict=True) if _costs_little(start)]
+    typical = with_typical_materials(base, stage) if cheap else None
+    if typical is None:
+        return []
+    return [start_of(typical, c, scan_starts(typical.hypothesis.study, c)[0]) for c in cheap]
+
+
+def _costs_little(start: Start) -> bool:
+    """Whether neither a solution nor a mesh nor a support belongs to each of its magnitudes."""
+    action = last_action(start)
+    return price((0.0, [start])) == CHEAP and not action.dimensions and not action.supports
+
+
+def _best_anywhere(start: Start) -> Refit | None:
+    """The best optimum that is found all over the prior of the step."""
+    return min(optima_elsewhere(start), key=lambda r: r.objective, default=None)
+
+
+def _in_own_models(found: Sequence[Refit], counts: dict[str, int]) -> list[Explanation]:
+    """The best of them in models of their own, and the others as they are; the best first."""
+    ordered = sorted(found, key=lambda r: r.objective)
+    near = [r for r in ordered[:OWN_MODELS] if r.objective < ordered[0].objective + NEAR]
+    shared = [one for r in near for one in (r.hypothesis, *r.hypothesis.shared)]
+    own = side_by_side(partial(_sharper, counts), near, shared)
+    rest = [explained(r, counts) for r in ordered[len(near) :]]
+    return sorted((*own, *rest), key=lambda e: -e.log_evidence)
+
+
+def _sharper(counts: dict[str, int], found: Refit) -> Explanation:
+    return explained(sharpened(explained(found, counts)).refit, counts)

@@ -1,0 +1,37 @@
+"""The declared model in a deeper valley, where an explanation's constants lead into one.
+
+The constants of a winding have many valleys, and an effect may be what leads from one to another: a part of the winding
+that all but takes part, in constants that explain everything else, is no missing physics.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from statorhom.diagnose.fits.baseline import Baseline, baseline_at
+from statorhom.diagnose.fits.explanations import ADEQUATE, Explanation, blank, nothing, refitted
+from statorhom.diagnose.searches.sharper import sharpened
+
+DEEPER = 20.0  # of the objective, that another valley must be deeper to be the declared model's
+LEADING = 3  # explanations whose constants are tried
+FAR = 150.0  # of the objective, by which an explanation that leaves nothing is beyond doubt in any valley
+
+
+def declared_again(base: Baseline, found: Sequence[Explanation]) -> Baseline | None:
+    """The declared model at the optimum next to an explanation's constants; None where it is none the better there.
+
+    Parameters
+    ----------
+    base : the declared model.
+    found : explanations, the best first.
+    """
+    n = base.free.hypothesis.constants
+    again = [refitted(blank(e.refit.hypothesis, ()), e.refit.z[:n]) for e in found[:LEADING]]
+    best = min((r for r in again if r is not None), key=lambda r: r.objective, default=None)
+    if best is None or best.objective > base.refit.objective - DEEPER:
+        return None
+    if found[0].adequacy_but_one > ADEQUATE and best.objective > found[0].refit.objective + FAR:
+        return None
+    own = sharpened(nothing(best)).refit
+    deeper = baseline_at(own.hypothesis.study, own.z, (base.free.z, *base.valleys))
+    return deeper if deeper.refit.objective < base.refit.objective - DEEPER else None

@@ -1,0 +1,287 @@
+"""Explanations in models of their own: basis and mesh factors at their own materials, and in the deepest valley.
+
+The scan and the first refits stand in the declared model's basis, whose materials may be far from an explanation's: the
+difference looks like more physics left out. Constants of a winding that were found under a wrong belief may lie in a
+valley that the right belief does not have.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from statorhom.diagnose.evidence.decision import NEAR_RIVAL
+from statorhom.diagnose.fits.explanations import (
+    ADEQUATE,
+    WELL,
+    Explanation,
+    explained,
+    refitted,
+    through_wide_valleys,
+    widened,
+)
+from statorhom.diagnose.fits.hypothesis import Hypothesis
+from statorhom.diagnose.fits.refit import Refit, refit, refit_objective
+from statorhom.diagnose.fits.valleys import APART, FAR_BEHIND, SETTLED, best_of_sides
+from statorhom.diagnose.located.mirrored import at_fitting_height
+from statorhom.diagnose.searches.single_effects import is_a_field
+from statorhom.diagnose.stages.stage_model import StageModel, mesh_error, with_reference
+from statorhom.errors import StatorhomError
+from statorhom.model.affine import Materials
+from statorhom.model.broken.change import Change
+from statorhom.physics.action import Action
+
+MOST = 3  # explanations that get models of their own before a second effect is sought
+ROUNDS = 3  # models of one explanation
+CERTAIN = 0.9  # chance of the way in which modes are called, from which on there is no other to speak of
+MOVED = (
+    0.2  # of the logarithm of a stiffness: from its reference, at which what breaks the symmetry is solved
+)
+WORSE = 10.0  # of the objective, by which a model of its own is worse than the common one
+AWAY = 2.0  # of the objective, by which an optimum is none in its own model
+AROUND = 1 / 1.1, 1.1  # times its own arc, at which a contact that is lost over one is solved
+ITSELF = (1.0,)  # the same of a rival: each arc that is solved takes as long as all else
+BEHIND = 150.0  # log evidence by which others are too far behind for that
+
+
+def sharpened(explanation: Explanation, *, leads: bool = True) -> Explanation:
+    """The same with basis and mesh factors of its own materials, anew while that explains more.
+
+    What breaks the symmetry is solved at the reference: where that was far off, the constants move with it.
+
+    Parameters
+    ----------
+    explanation : a refit.
+    leads : whether constants are tried on their other sides too where that is dear.
+    """
+    around = AROUND if leads else ITSELF
+    found = _sharpened(explanation, around)
+    for _ in range(ROUNDS - 1):
+        gained = explanation.refit.objective - found.refit.objective
+        if found.adequacy_but_one > ADEQUATE or gained < SETTLED:
+            break
+        explanation, found = found, _sharpened(found, around)
+    found = replace(found, settled=True)
+    cheap = _keeps_symmetry(found.refit)
+    # where every start needs a model of its own, what is good enough for a name is good enough, but where modes mix:
+    # with every other way of calling them there may be another valley
+    enough = found.adequacy_but_one > (WELL if cheap else ADEQUATE) and not _mixes(found.refit)
+    if enough or not (leads or cheap):
+        return found
+    deeper = at_fitting_height(_on_other_sides(found.refit))
+    if deeper is found.refit:
+        return found
+    return min(found, _sharpened(replace(found, refit=deeper), around), key=lambda e: e.refit.objective)
+
+
+def at_its_own_materials(explanation: Explanation) -> Explanation:
+    """What is reported: where constants have left the materials at which the broken symmetry is solved, solved anew.
+
+    An explanation that leaves no more than noise may still be on its way: what is unequal along the axis and how stiff
+    it is in the mean make up for each other, and both follow the reference.
+    """
+    for _ in range(ROUNDS):
+        r = explanation.refit
+        if _keeps_symmetry(r) or not (_has_moved(r) or is_a_field(r.hypothesis, r.z)):
+            break
+        again = _sharpened(explanation)
+        gained = explanation.refit.objective - again.refit.objective
+        if gained > 0:
+            explanation = again
+        if gained < SETTLED:
+            break
+    return explanation
+
+
+def _mixes(r: Refit) -> bool:
+    """Whether some mode's lines may be called otherwise."""
+    return any(feature.chance < CERTAIN for feature in r.hypothesis.features(r.z))
+
+
+def _has_moved(r: Refit) -> bool:
+    """Whether any region's stiffness has left that of its stage's reference."""
+    for stage in r.hypothesis.study.stages:
+        materials = r.hypothesis.materials(stage, r.z)
+        for region, reference in stage.reference.items():
+            now, then = (np.diag(m.hooke.matrix) for m in (materials[region], reference))
+            if np.abs(np.log(now / then)).max() > MOVED:
+                return True
+    return False
+
+
+def _sharpened(explanation: Explanation, around: tuple[float, ...] = AROUND) -> Explanation:
+    r = explanation.refit
+    moved = in_its_own_model(r.hypothesis, r.z, around=around)
+    again = refitted(moved, r.z)
+    if again is not None and _leads_past(r, again):
+        middle = _half_way(r, again, around)
+        again = min((x for x in (again, middle) if x is not None), key=lambda x: x.objective)
+    if again is None or again.objective > r.objective + WORSE:
+        # other mesh factors may have put the constants onto a slope of another valley
+        wide = through_wide_valleys(moved, r.z)
+        # and where two modes come near each other, a mesh factor may be that of the other one
+        again = min((x for x in (again, wide, r) if x is not None), key=lambda x: x.objective)
+    return replace(explanation, refit=again)
+
+
+def _leads_past(r: Refit, again: Refit) -> bool:
+    """Whether an optimum's own model leads away from it without a gain.
+
+    What breaks the symmetry strongly is off by more the further it is from where it was solved: then either optimum
+    stands where the other one's model is wrong.
+    """
+    if _keeps_symmetry(r) or again.objective < r.objective - SETTLED:
+        return False
+    return refit_objective(again.hypothesis, r.z) > again.objective + AWAY
+
+
+def _half_way(r: Refit, again: Refit, around: tuple[float, ...]) -> Refit | None:
+    """The optimum in the model of what lies between the two; None where no stator has that."""
+    middle = 0.5 * (r.z + again.z)
+    try:
+        return refitted(in_its_own_model(r.hypothesis, middle, around=around), middle)
+    except (StatorhomError, KeyError):
+        return None
+
+
+def in_its_own_model(
+    hypothesis: Hypothesis,
+    z: np.ndarray,
+    *,
+    quick: bool = False,
+    arcs: tuple[tuple[float, float], ...] = (),
+    around: tuple[float, ...] = AROUND,
+) -> Hypothesis:
+    """With basis and mesh factors of its own materials, and the local fields of its effects; to be paired anew.
+
+    Parameters
+    ----------
+    hypothesis, z : what, and where.
+    quick : whether the old mesh factors do, and the local fields that a basis holds of any such effects.
+    arcs : widths (rad) and ratios that a contact may be weaker over, beside those of the effects.
+    around : times an effect's own arc, at which its contact is solved.
+
+    Raises
+    ------
+    StatorhomError
+        If no stator has these constants.
+    """
+    actions, stages = hypothesis.actions(z), []
+    arcs = (*arcs, *_arcs(actions, around))
+    for stage in hypothesis.study.stages:
+        materials = hypothesis.materials(stage, z)
+        near = with_reference(stage, materials, arcs, {} if quick else _examples(stage, materials, actions))
+        if not quick:
+            near = near.with_error(mesh_error(stage.setup, near.ring, materials, stage.density))
+        stages.append(near)
+    return replace(hypothesis, study=hypothesis.study.with_stages(tuple(stages)), held=None)
+
+
+def _examples(
+    stage: StageModel, materials: Materials, actions: Sequence[Action]
+) -> dict[str, tuple[tuple[Change, ...]]]:
+    """What effects change in a stage, by the key of their training: a strong one's local fields are its own."""
+    return {
+        a.training.key: (a.changes(stage.model.mesh, materials),)
+        for a in actions
+        if a.training and a.changes and a.touches(stage.name)
+    }
+
+
+def _arcs(actions: Sequence[Action], around: Sequence[float]) -> tuple[tuple[float, float], ...]:
+    """Widths and ratios around those of a contact that is weaker over an arc."""
+    arcs = [
+        (a.joint.arc[1], a.joint.ratio) for a in actions if a.joint is not None and a.joint.arc is not None
+    ]
+    return tuple((min(w * f, 2 * np.pi), q / f**2) for w, q in arcs for f in around)
+
+
+def refined(
+    explanations: Sequence[Explanation], valleys: Sequence[np.ndarray], counts: dict[str, int]
+) -> list[Explanation]:
+    """The leading explanations in models of their own and from the constants of other valleys; the best first.
+
+    Parameters
+    ----------
+    explanations : the best first.
+    valleys : constants at other optima of the declared model.
+    counts : effect → number of its candidates.
+    """
+    if not explanations:
+        return []
+    adequate = explanations[0].adequacy_but_one > ADEQUATE
+    least = explanations[0].log_evidence - (NEAR_RIVAL if adequate else BEHIND)
+
+    def better(e: Explanation) -> Explanation:
+        leads = e is explanations[0]
+        own = sharpened(e, leads=leads)
+        # what leads is good enough where it explains all; a rival so near has to be seen at its best
+        return _settled((own if adequate and leads else _deepest(own, valleys, counts)).refit, counts)
+
+    found = [better(e) if i < MOST and e.log_evidence > least else e for i, e in enumerate(explanations)]
+    return sorted(found, key=lambda e: -e.log_evidence)
+
+
+def _settled(best: Refit, counts: dict[str, int]) -> Explanation:
+    return replace(explained(best, counts), settled=True)
+
+
+def _deepest(own: Explanation, valleys: Sequence[np.ndarray], counts: dict[str, int]) -> Explanation:
+    """From the constants of other valleys too."""
+    best = own.refit
+    hypothesis, n = best.hypothesis, best.hypothesis.constants
+    tried: list[Refit] = []
+    for start in [best.z, *(np.r_[v, best.z[n:]] for v in valleys)]:
+        if explained(best, counts).adequacy > WELL:
+            break
+        rough = widened(hypothesis, start)
+        if rough is None or not _is_news(rough, tried):
+            continue
+        tried.append(rough)
+        again = through_wide_valleys(hypothesis, start, rough)
+        if again is not None and again.objective < best.objective - SETTLED:
+            best = again
+    # models cost more than refits: another one only where the valley is another
+    return own if best is own.refit else sharpened(replace(own, refit=best), leads=False)
+
+
+def _is_news(rough: Refit, tried: Sequence[Refit]) -> bool:
+    """Whether an optimum in wide valleys is none of those that were followed already, and not far behind them."""
+    least = min((other.objective for other in tried), default=np.inf) + FAR_BEHIND
+    return rough.objective < least and all(np.linalg.norm(rough.z - o.z) > APART for o in tried)
+
+
+def _on_other_sides(optimum: Refit) -> Refit:
+    """The best of refits in which constants of which little was known start far away, one at a time.
+
+    Models of strong effects' own local fields take minutes: all are compared without these.
+    """
+    without = _from_there(optimum, optimum.z) if _has_own_fields(optimum) else None
+    begun = without or optimum
+    best = best_of_sides(begun, enumerate(begun.hypothesis.study.constants.items), _from_there)
+    return optimum if best is begun else best
+
+
+def _has_own_fields(found: Refit) -> bool:
+    """Whether any step's basis knows the local fields of what the effects change."""
+    return any(stage.examples for stage in found.hypothesis.study.stages)
+
+
+def _from_there(best: Refit, start: np.ndarray) -> Refit | None:
+    """The refit from other constants; what breaks the symmetry is solved there, for it does not move with them."""
+    blank = replace(best.hypothesis, held=None)
+    if _keeps_symmetry(best):
+        return refitted(blank, start, worth=best.objective)
+    try:
+        # Modes are not paired anew: what leads further is followed once more. The first steps from so far promise too
+        # little, and cost less than the model.
+        return refit(in_its_own_model(blank, start, quick=True), start, rounds=1)
+    except (StatorhomError, KeyError):
+        return None
+
+
+def _keeps_symmetry(found: Refit) -> bool:
+    """Whether nothing breaks the symmetry."""
+    return not any(action.changes for action in found.hypothesis.actions(found.z))

@@ -1,0 +1,40 @@
+"""What breaks the symmetry does to the named modes of a stage."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from statorhom.diagnose.bases.shown_nodes import shown_nodes
+from statorhom.diagnose.stages.order_profiles import broken_profile
+from statorhom.diagnose.stages.stage_model import StageModel
+from statorhom.model.broken.change import Change
+from statorhom.model.broken.named_response import Response, nearest_pair, response_of
+from statorhom.model.broken.solve import solve_broken
+from statorhom.model.convergence import ModeKey
+from statorhom.physics.action import Training
+
+__all__ = ["Response", "responses"]
+
+
+def responses(
+    stage: StageModel, changes: Sequence[Change], trainings: Sequence[Training] = ()
+) -> dict[ModeKey, Response]:
+    """Response of every named mode that can still be told; `trainings` tell what the basis has to hold.
+
+    Raises
+    ------
+    SolverError
+        If the changes leave a mass or stiffness that is not definite.
+    """
+    trained = stage.trained(trainings)
+    modes = solve_broken(trained.basis, changes, tolerance=None)
+    shown = shown_nodes(modes, trained.columns, stage.reference_keys)
+    found = {}
+    for key, place in trained.columns.items():
+        pair = nearest_pair(modes, place)
+        if pair is not None:
+            profile = broken_profile(stage, trained, modes, key, pair) if stage.heights_m else None
+            response = response_of(modes, place, pair)
+            found[key] = replace(response, other_axial=shown.get(key), profile=profile)
+    return found

@@ -1,0 +1,83 @@
+"""Which valley the declared model is taken from."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from statorhom.diagnose.fits import baseline
+
+
+def valley(
+    name: str, wide: float, adequacy: float, own_wide: float, narrower: float | None = None
+) -> SimpleNamespace:
+    hypothesis = SimpleNamespace(study=name, narrower=wide if narrower is None else narrower)
+    return SimpleNamespace(
+        objective=wide, adequacy=adequacy, own_wide=own_wide, z=np.array([wide]), hypothesis=hypothesis
+    )
+
+
+def chosen(monkeypatch: pytest.MonkeyPatch, *valleys: SimpleNamespace) -> tuple[Any, list[str], int]:
+    settled: list[str] = []
+
+    def settle(_study: Any, one: SimpleNamespace, _settings: Any) -> SimpleNamespace:
+        settled.append(one.hypothesis.study)
+        return one
+
+    study = SimpleNamespace(constants=(), stages=(), with_stages=lambda _: None)
+    for name, fake in {
+        "new_constants": lambda *_: [],
+        "trials_around": lambda *_: [],
+        "_materials": lambda *_: [],
+        "stage_model": lambda *_: None,
+        "Hypothesis": lambda study: study,
+        "wide_optima": lambda *_, **__: list(valleys),
+        "with_other_sides": lambda _, wide, *__: wide,
+        "in_valleys": lambda hypothesis, *_: SimpleNamespace(objective=hypothesis.narrower),
+        "_settled": settle,
+        "nothing": lambda found: found,
+        "_wide_objective": lambda found: found.own_wide,
+    }.items():
+        monkeypatch.setattr(baseline, name, fake)
+    settings = SimpleNamespace(seed=0, density=None)
+    setup: Any = SimpleNamespace(keys=SimpleNamespace(name="stack"))
+    found, _, others = baseline._with_step(study, np.zeros(0), setup, (), settings)  # type: ignore[arg-type]
+    return found, settled, len(others)
+
+
+def test_the_first_that_leaves_nothing_to_explain_is_enough(monkeypatch: pytest.MonkeyPatch) -> None:
+    first, second = valley("a", 10.0, 0.5, 10.0), valley("b", 11.0, 0.9, 5.0)
+    assert chosen(monkeypatch, first, second) == ("a", ["a"], 1)
+
+
+def test_one_that_fits_beats_a_wider_one_that_does_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    first, second = valley("a", 10.0, 1e-9, 1.0), valley("b", 11.0, 0.9, 5.0)
+    assert chosen(monkeypatch, first, second) == ("b", ["a", "b"], 1)
+
+
+def test_where_none_fits_wide_valleys_tell(monkeypatch: pytest.MonkeyPatch) -> None:
+    first, second = valley("a", 10.0, 1e-9, 9.0), valley("b", 11.0, 1e-3, 12.0)
+    assert chosen(monkeypatch, first, second) == ("a", ["a", "b"], 1)
+
+
+def test_what_is_far_behind_is_not_followed(monkeypatch: pytest.MonkeyPatch) -> None:
+    first, second = valley("a", 10.0, 1e-9, 9.0), valley("b", 60.0, 0.9, 1.0)
+    assert chosen(monkeypatch, first, second) == ("a", ["a"], 1)
+
+
+def test_what_stays_best_as_valleys_narrow_is_followed_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A table of six wound modes has many valleys nearly as deep while three percent are forgiven."""
+    wide = [
+        valley("a", 41.9, 0.0, 160.0, 153.0),
+        valley("b", 47.2, 0.0, 200.0, 264.0),
+        valley("c", 47.6, 0.9, 8.0, 139.0),
+        valley("far", 70.0, 0.9, 1.0, 100.0),
+    ]
+    found, settled, others = chosen(monkeypatch, *wide)
+    assert (found, settled) == ("c", ["a", "c"])
+    assert others == 2
+    # where the widest is the narrowest too, nothing else is paid for
+    assert chosen(monkeypatch, valley("a", 41.9, 0.0, 9.0), valley("b", 50.0, 0.9, 8.0))[1] == ["a"]

@@ -1,0 +1,174 @@
+"""The search for arcs beside any winding: what is tried, followed, turned and judged."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from statorhom.diagnose.fits import valleys as valleys_of
+from statorhom.diagnose.fits.explanations import NARROWING
+from statorhom.diagnose.fits.valleys import FAR_BEHIND
+from statorhom.diagnose.searches import arc_search as module
+from statorhom.diagnose.searches.arc_search import FOLLOWED, MODELS, RANGES, TRIALS, arc_beside_any_winding
+from statorhom.diagnose.searches.refit_starts import Start
+from statorhom.errors import SolverError
+from statorhom.physics.candidate import Candidate
+from statorhom.physics.effects.interface_debond import ARC, LOSS, RATIO
+from statorhom.physics.parameter import angle
+
+ARCS = Candidate("interface_debond", "wound", (ARC, RATIO, LOSS, angle()), "winding")
+TRUE = {"arc_deg": 90.0, "contact_ratio": 3e-4}
+PLACE = 3.0
+WINDING = (1, 2)
+PLACES = [*WINDING, 3, 4]  # with the width and the ratio of the arc
+
+
+class Hypothesis:
+    """Of a stack's constant, two of a winding, and an arc."""
+
+    candidates = (ARCS,)
+    shared: tuple[object, ...] = ()
+
+    def __init__(self, name: str = "start", discrepancy: float = 0.0) -> None:
+        self.name, self.discrepancy = name, discrepancy
+
+    def within(self, changes: dict[str, Any]) -> Hypothesis:
+        return Hypothesis(self.name, changes.get("discrepancy", self.discrepancy))
+
+    def __len__(self) -> int:
+        return 3 + len(ARCS.parameters)
+
+    def limits(self) -> tuple[np.ndarray, np.ndarray]:
+        return np.full(len(self), -6.0), np.full(len(self), 8.0)
+
+
+def effect(z: np.ndarray) -> dict[str, float]:
+    return {p.name: p.value(float(u)) for p, u in zip(ARCS.parameters, z[3:], strict=True)}
+
+
+class Search:
+    """Every point is its own optimum; the objective is the distance from one winding and arc."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.followed: dict[float, list[np.ndarray]] = {}  # by the width of the valleys
+        self.judged: list[np.ndarray] = []
+        monkeypatch.setattr(module, "replace", lambda h, **changes: h.within(changes))
+        monkeypatch.setattr(module, "in_few_vectors", lambda *_: Hypothesis("few"))
+        monkeypatch.setattr(module, "by_degrees", self.by_degrees)
+        monkeypatch.setattr(module, "refitted", self.refitted)
+        monkeypatch.setattr(module, "in_valleys", self.in_valleys)
+        monkeypatch.setattr(module, "narrowed", self.narrowed)
+        monkeypatch.setattr(module, "in_its_own_model", lambda *_, **__: Hypothesis("own"))
+        monkeypatch.setattr(module, "in_few_vectors_near", self.near)
+        monkeypatch.setattr(module, "refit_objective", self.objective)
+        monkeypatch.setattr(valleys_of, "refit_objective", self.objective)
+
+    @staticmethod
+    def near(hypothesis: Hypothesis, _: np.ndarray, places: Sequence[int]) -> Hypothesis:
+        # the winding, and the width and the ratio of the arc
+        assert list(places) == [1, 2, 3, 4] and hypothesis.name == "own"
+        return hypothesis
+
+    @staticmethod
+    def objective(_: Hypothesis, z: np.ndarray) -> float:
+        found = effect(z)
+        away = sum(np.log(found[name] / value) ** 2 for name, value in TRUE.items())
+        turned = 0.1 * (1 - np.cos(found["angle_rad"] - PLACE))
+        return float(away + turned + np.sum((z[list(WINDING)] - [0.5, -1.0]) ** 2))
+
+    def by_degrees(self, hypothesis: Hypothesis, z: np.ndarray) -> Any:
+        assert hypothesis.name == "own"
+        self.judged.append(z)
+        return self.refitted(hypothesis, z)
+
+    def refitted(self, hypothesis: Hypothesis, z: np.ndarray) -> Any:
+        if hypothesis.name != "own":
+            self.followed.setdefault(hypothesis.discrepancy, []).append(z)
+        return SimpleNamespace(hypothesis=hypothesis, z=z, objective=self.objective(hypothesis, z))
+
+    def in_valleys(self, hypothesis: Hypothesis, z: np.ndarray, discrepancy: float) -> Any:
+        return self.refitted(hypothesis.within({"discrepancy": discrepancy}), z)
+
+    def narrowed(self, rough: Any, steps: Sequence[float]) -> Any:
+        assert tuple(steps) == NARROWING[1:]
+        return self.refitted(Hypothesis("few", steps[-1]), rough.z)
+
+
+@pytest.fixture
+def search(monkeypatch: pytest.MonkeyPatch) -> Search:
+    return Search(monkeypatch)
+
+
+def start() -> Start:
+    usual = [p.internal(v) for p, v in zip(ARCS.parameters, (60.0, 1e-3, 0.03, 0.0), strict=True)]
+    return Start(Hypothesis(), np.r_[0.4, 0.0, 0.0, usual])  # type: ignore[arg-type]
+
+
+def test_the_best_winding_and_arc_of_all_that_are_tried_is_found(search: Search) -> None:
+    z = arc_beside_any_winding(start(), WINDING, 100.0)
+    assert z is not None
+    found = effect(z)
+    # the stack stays where it was; the arc is turned to its best place
+    assert z[0] == 0.4
+    assert found["angle_rad"] == pytest.approx(PLACE, abs=np.pi / module.PLACES)
+    assert search.objective(Hypothesis(), z) < 0.5
+    # fewer and fewer are followed as the valleys narrow, the last ones once more from the best places of their arcs
+    counts = [len(search.followed[discrepancy]) for discrepancy in (*NARROWING, 0.0)]
+    assert counts == [FOLLOWED[0], FOLLOWED[1], 2 * FOLLOWED[2]]
+    # once in the model of what few vectors lead to, once in that of what this one does
+    assert len(search.judged) in (2, 2 * MODELS)
+
+
+@pytest.mark.usefixtures("search")
+def test_points_lie_all_over_windings_and_arcs() -> None:
+    points = module._points(start(), WINDING, TRIALS, 0)
+    for name, (low, high) in RANGES.items():
+        values = [effect(z)[name] for z in points]
+        assert low <= min(values) < 1.1 * low and 0.9 * high < max(values) <= high
+    spread = np.array(points)[:, list(WINDING)]
+    assert spread.min() < -2.0 and spread.max() > 2.0
+
+
+@pytest.mark.usefixtures("search")
+def test_the_same_points_give_the_same_answer() -> None:
+    first, second = (arc_beside_any_winding(start(), WINDING, 100.0) for _ in range(2))
+    assert first is not None and np.array_equal(first, second)  # type: ignore[arg-type]
+
+
+@pytest.mark.usefixtures("search")
+def test_a_winding_without_a_model_of_its_own_is_judged_last(monkeypatch: pytest.MonkeyPatch) -> None:
+    def impossible(*_: Any, **__: Any) -> Any:
+        raise SolverError("no such body")
+
+    monkeypatch.setattr(module, "in_its_own_model", impossible)
+    objective, z = module._judged(Hypothesis(), PLACES, np.zeros(7))  # type: ignore[arg-type]
+    assert objective == np.inf and not z.any()
+
+
+@pytest.mark.parametrize("direct", [True, False])
+def test_of_both_ways_into_a_model_of_its_own_the_better_one_counts(
+    search: Search, monkeypatch: pytest.MonkeyPatch, direct: bool
+) -> None:
+    best = start().z
+    ways = {"refitted": search.refitted, "by_degrees": search.by_degrees}
+    other = "by_degrees" if direct else "refitted"
+    # its arc is a third as wide in the end
+    astray = np.r_[best[:3], ARCS.parameters[0].internal(20.0), best[4:]]
+    monkeypatch.setattr(module, other, lambda h, _: ways[other](h, astray))
+    _, z = module._judged(Hypothesis(), PLACES, best)  # type: ignore[arg-type]
+    assert np.array_equal(z, best)
+
+
+@pytest.mark.usefixtures("search")
+def test_where_no_winding_can_be_followed_nothing_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "in_valleys", lambda *_, **__: None)
+    assert arc_beside_any_winding(start(), WINDING, 100.0) is None
+
+
+def test_an_arc_that_explains_no_more_than_is_explained_without_gets_no_model(search: Search) -> None:
+    assert arc_beside_any_winding(start(), WINDING, -FAR_BEHIND) is None
+    assert search.judged == []

@@ -1,0 +1,161 @@
+"""Arcs of lost contact: when they are sought, beside which winding the search begins, and what is made of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from statorhom.diagnose.searches import lost_contact as module
+from statorhom.diagnose.searches import typical_materials as typical
+from statorhom.diagnose.searches.arc_search import TRAINED
+from statorhom.diagnose.searches.lost_contact import ROUNDS, with_lost_contact
+from statorhom.diagnose.searches.refit_starts import Start
+from statorhom.errors import SolverError
+from statorhom.physics.candidate import Candidate
+from statorhom.physics.effects.interface_debond import ARC, LOSS, RATIO
+from statorhom.physics.parameter import angle
+
+ARCS = Candidate("interface_debond", "wound", (ARC, RATIO, LOSS, angle()), "winding")
+LUMP = Candidate("attached_mass", "wound", (), "lamination")
+# of a stack, and of the winding
+NAMES = ("stack:lamination.E_p_pa", "wound:winding.E_p_pa", "wound:winding.G_rz_pa", "wound:winding.nu_p")
+FOUND = np.array([0.4, 1.0, 1.2, 0.0, 0.1, 0.2, 0.3, 2.0])
+
+
+class Search:
+    """A search that finds one arc, whose objective falls from model to model."""
+
+    def __init__(
+        self, monkeypatch: pytest.MonkeyPatch, objectives: Sequence[float] = (90.0, 40.0, 35.0)
+    ) -> None:
+        self.trained: list[np.ndarray] = []
+        self.begun: list[tuple[np.ndarray, Sequence[int]]] = []
+        self.objectives = list(objectives)
+        items = tuple(SimpleNamespace(name=n, log=not n.endswith("nu_p"), fixed=False) for n in NAMES)
+        stage = SimpleNamespace(setup=SimpleNamespace(keys=SimpleNamespace(name="wound")))
+        study = SimpleNamespace(constants=SimpleNamespace(items=items), stages=(stage,))
+        hypothesis = SimpleNamespace(study=study, candidates=())
+        self.base: Any = SimpleNamespace(
+            hypothesis=hypothesis, z=np.array([0.4, -2.0, -2.5, 0.7]), log_evidence=-200.0
+        )
+        monkeypatch.setattr(module, "nothing", lambda _: self.explanation(-200.0))
+        monkeypatch.setattr(module, "explained", self.explained)
+        monkeypatch.setattr(typical, "blank", lambda h, _: h)
+        monkeypatch.setattr(typical, "evaluated", lambda h, z: SimpleNamespace(hypothesis=h, z=z))
+        monkeypatch.setattr(typical, "in_its_own_model", self.model)
+        monkeypatch.setattr(module, "evaluated", lambda h, z: SimpleNamespace(hypothesis=h, z=z))
+        monkeypatch.setattr(module, "in_its_own_model", self.model)
+        monkeypatch.setattr(module, "scan_starts", lambda *_: [np.zeros(4)])
+        monkeypatch.setattr(module, "start_of", lambda r, _, z: Start(r.hypothesis, np.r_[r.z, z]))
+        monkeypatch.setattr(module, "arc_beside_any_winding", self.search)
+        # what few vectors lead to is refitted in all
+        monkeypatch.setattr(module, "varied", lambda _, winding: [*winding, 4, 5])
+        monkeypatch.setattr(module, "followed_near", self.near)
+        monkeypatch.setattr(module, "refitted", self.refit)
+
+    @staticmethod
+    def explanation(
+        log_evidence: float,
+        refit: Any = None,
+        adequacy: float = 0.0,
+        of_all: float = 0.0,
+        candidates: Sequence[Candidate] = (LUMP,),
+    ) -> Any:
+        return SimpleNamespace(
+            log_evidence=log_evidence,
+            refit=refit or SimpleNamespace(objective=-log_evidence),
+            adequacy=adequacy,
+            adequacy_but_one=adequacy,
+            adequacy_of_all=of_all,
+            candidates=candidates,
+        )
+
+    def explained(self, r: Any, _: Any) -> Any:
+        return self.explanation(-r.objective, r, adequacy=0.5 if r.objective < 30.0 else 0.0)
+
+    def model(self, hypothesis: Any, z: np.ndarray, *, quick: bool = False, arcs: Any = ()) -> Any:
+        if arcs:
+            assert arcs == TRAINED and quick
+            self.trained.append(z)
+        return hypothesis
+
+    @staticmethod
+    def near(_: Any, places: Sequence[int], z: np.ndarray) -> np.ndarray:
+        # the winding, and the width and the ratio of the arc
+        assert list(places) == [1, 2, 3, 4, 5]
+        return z
+
+    def search(self, start: Start, winding: Sequence[int], worth: float) -> np.ndarray:
+        self.worth = worth
+        self.begun.append((start.z, winding))
+        return FOUND
+
+    def refit(self, hypothesis: Any, z: np.ndarray) -> Any:
+        return SimpleNamespace(hypothesis=hypothesis, z=z, objective=self.objectives.pop(0))
+
+
+def test_the_search_begins_beside_the_winding_that_is_usual(monkeypatch: pytest.MonkeyPatch) -> None:
+    search = Search(monkeypatch)
+    (found,) = with_lost_contact(search.base, [], [LUMP, ARCS], {})
+    assert np.array_equal(found.refit.z, FOUND)
+    # the stack stays as the declared model has it
+    assert [z.tolist() for z in search.trained] == [[0.4, 0.0, 0.0, 0.0]]
+    assert search.worth == 200.0
+    ((z, winding),) = search.begun
+    assert z.tolist() == [0.4, *np.zeros(7)] and list(winding) == [1, 2, 3]
+
+
+@pytest.mark.parametrize(
+    ("objectives", "left", "best"),
+    [((90.0, 40.0, 35.0), 0, 35.0), ((20.0, 10.0), 1, 20.0), ((90.0, 95.0, 35.0), 1, 90.0)],
+    ids=["while it explains more", "until it explains all", "until another model explains less"],
+)
+def test_models_of_its_own_are_made(
+    monkeypatch: pytest.MonkeyPatch, objectives: Sequence[float], left: int, best: float
+) -> None:
+    search = Search(monkeypatch, objectives)
+    (found,) = with_lost_contact(search.base, [], [ARCS], {})
+    assert found.refit.objective == best
+    assert len(search.objectives) == left
+    assert len(objectives) <= ROUNDS
+
+
+def test_nothing_is_sought_where_something_explains_the_misfit(monkeypatch: pytest.MonkeyPatch) -> None:
+    search = Search(monkeypatch)
+    enough = search.explanation(-20.0, adequacy=0.3)
+    assert with_lost_contact(search.base, [enough], [ARCS], {}) == []
+    assert not search.begun
+    # a lump that leaves more than noise may stand in for an arc
+    assert with_lost_contact(search.base, [search.explanation(-50.0, adequacy=0.05)], [ARCS], {})
+    assert search.begun
+
+
+@pytest.mark.parametrize(("of_all", "sought"), [(0.05, True), (0.5, False)])
+def test_an_arc_that_leads_has_to_leave_no_more_than_noise_in_losses_too(
+    monkeypatch: pytest.MonkeyPatch, of_all: float, sought: bool
+) -> None:
+    search = Search(monkeypatch, (90.0, 40.0, 32.0))
+    arc = search.explanation(-55.0, adequacy=0.5, of_all=of_all, candidates=(ARCS,))
+    found = with_lost_contact(search.base, [arc], [ARCS], {})
+    assert bool(search.begun) == sought
+    assert [e.refit.objective for e in found] == ([32.0] if sought else [])
+
+
+def test_an_arc_that_explains_less_is_no_news(monkeypatch: pytest.MonkeyPatch) -> None:
+    search = Search(monkeypatch)
+    assert with_lost_contact(search.base, [search.explanation(1.0)], [ARCS], {}) == []
+    assert search.begun
+
+
+def test_windings_without_a_body_are_passed_over(monkeypatch: pytest.MonkeyPatch) -> None:
+    def impossible(*_: Any, **__: Any) -> Any:
+        raise SolverError("no such body")
+
+    search = Search(monkeypatch)
+    monkeypatch.setattr(typical, "evaluated", impossible)
+    assert with_lost_contact(search.base, [], [ARCS], {}) == []
+    assert not search.begun
