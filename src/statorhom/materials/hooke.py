@@ -39,11 +39,10 @@ class Hooke:
         matrix = np.array(self.matrix, dtype=float)
         if matrix.shape != (6, 6):
             raise MaterialError(f"Hooke matrix: needs 6 × 6 entries, has the shape {matrix.shape}")
-        if not np.all(np.isfinite(matrix)):
+        if not np.isfinite(matrix).all():
             raise MaterialError("Hooke matrix: every entry must be a finite number")
-        if np.abs(matrix - matrix.T).max() > _SYMMETRY_TOLERANCE * np.abs(matrix).max():
-            raise MaterialError("Hooke matrix: must be symmetric, C_ij = C_ji, as an elastic energy exists")
-        matrix = (matrix + matrix.T) / 2.0
+        if (matrix != matrix.T).any():
+            matrix = _symmetrized(matrix)
         matrix.flags.writeable = False
         object.__setattr__(self, "matrix", matrix)
 
@@ -106,3 +105,10 @@ class Hooke:
         Many angles at once: `statorhom.materials.rotation.rotate` with `cylinder_axes`.
         """
         return self.rotated(cylinder_axes(theta))
+
+
+def _symmetrized(matrix: Array) -> Array:
+    """The mean of a matrix and its transpose, which differ by no more than rounding."""
+    if np.abs(matrix - matrix.T).max() > _SYMMETRY_TOLERANCE * np.abs(matrix).max():
+        raise MaterialError("Hooke matrix: must be symmetric, C_ij = C_ji, as an elastic energy exists")
+    return (matrix + matrix.T) / 2.0

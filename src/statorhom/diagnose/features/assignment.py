@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from math import inf, log
 
 import numpy as np
 
@@ -22,32 +23,59 @@ NEAR = 0.2
 PARTED = 0.01  # of ln f: from which on the lines of a doublet are looked for where each of them is predicted
 
 Keys = tuple[ModeKey | None, ...]
+Named = Mapping[tuple[int | None, int | None], Sequence[float]]
+
+
+@dataclass(frozen=True, eq=False)
+class Sought:
+    """Measured modes and the predicted lines among which their partners are.
+
+    Parameters
+    ----------
+    test, modes : the measurement, names corrected.
+    lines : that a test may show of the predicted modes, by frequency.
+    apart : of ln f, up to which two measured lines are one doublet's.
+    """
+
+    test: MeasuredTest
+    modes: Sequence[MeasuredMode]
+    lines: Sequence[_Line]
+    apart: float
+
+    def within(self, reach: float) -> Keys:
+        """Named partner of every measured mode; `reach`: as a part of how far partners may usually lie apart."""
+        used = [i for i, mode in enumerate(self.modes) if not (self.test.recorded and mode.order is None)]
+        found = pair(
+            [self.modes[i] for i in used],
+            self.lines,
+            reach * PAIRING_SD,
+            gate=GATE,
+            labelled_gate=LABELLED_GATE,
+            doublet_split=self.apart,
+            with_doubt=False,
+        )
+        keys: list[ModeKey | None] = [None] * len(self.modes)
+        for p in found.pairs:
+            keys[used[p.measured]] = self.lines[p.simulated].key
+        return tuple(keys)
+
+
+def sought(
+    test: MeasuredTest, modes: Sequence[MeasuredMode], predicted: Mapping[ModeKey, PredictedMode]
+) -> Sought:
+    """What partners are looked for among, at any reach."""
+    measured = _by_name(modes)
+    lines = [line for mode in predicted.values() for line in _lines(mode, _counted(mode, measured))]
+    # a heavy lump may part a doublet's lines by more than any scatter does
+    apart = [DOUBLET_SPLIT, *(AS_FAR * abs(m.split) / 2 for m in predicted.values()), *_of_one_name(modes)]
+    return Sought(test, modes, sorted(lines, key=lambda line: line.frequency_hz), max(apart))
 
 
 def assigned(
-    test: MeasuredTest,
-    modes: Sequence[MeasuredMode],
-    predicted: Mapping[ModeKey, PredictedMode],
-    reach: float = 1.0,
+    test: MeasuredTest, modes: Sequence[MeasuredMode], predicted: Mapping[ModeKey, PredictedMode]
 ) -> Keys:
-    """Named partner of every measured mode; `reach`: as a part of how far partners may usually lie apart."""
-    seen = [_as_seen(m, modes) for m in predicted.values()]
-    simulated = sorted((line for m in seen for line in _lines(m)), key=lambda line: line.frequency_hz)
-    used = [i for i, mode in enumerate(modes) if not (test.recorded and mode.order is None)]
-    found = pair(
-        [modes[i] for i in used],
-        simulated,
-        reach * PAIRING_SD,
-        gate=GATE,
-        labelled_gate=LABELLED_GATE,
-        # a heavy lump may part a doublet's lines by more than any scatter does
-        doublet_split=max([DOUBLET_SPLIT, *(AS_FAR * abs(m.split) / 2 for m in seen), *_of_one_name(modes)]),
-        with_doubt=False,
-    )
-    keys: list[ModeKey | None] = [None] * len(modes)
-    for p in found.pairs:
-        keys[used[p.measured]] = simulated[p.simulated].key
-    return tuple(keys)
+    """Named partner of every measured mode."""
+    return sought(test, modes, predicted).within(1.0)
 
 
 @dataclass(frozen=True)
@@ -55,6 +83,7 @@ class _Line:
     """What a test may show of a predicted mode: both lines of a doublet, or one that lies far from the other."""
 
     mode: PredictedMode
+    axial: int | None
     frequency_hz: float
     multiplicity: int
 
@@ -67,10 +96,6 @@ class _Line:
         return self.mode.order
 
     @property
-    def axial(self) -> int | None:
-        return self.mode.axial
-
-    @property
     def kind(self) -> str:
         return self.mode.kind
 
@@ -79,12 +104,12 @@ class _Line:
         return self.mode.visibility
 
 
-def _lines(mode: PredictedMode) -> list[_Line]:
+def _lines(mode: PredictedMode, axial: int | None) -> list[_Line]:
     """A doublet that is parted by much has lines elsewhere than in its middle, and another's lie between them."""
     away = abs(mode.split) / 4
     if mode.multiplicity < 2 or away < PARTED:
-        return [_Line(mode, mode.frequency_hz, mode.multiplicity)]
-    return [_Line(mode, float(np.exp(mode.log_f + side * away)), 1) for side in (-1, 1)]
+        return [_Line(mode, axial, mode.frequency_hz, mode.multiplicity)]
+    return [_Line(mode, axial, float(np.exp(mode.log_f + side * away)), 1) for side in (-1, 1)]
 
 
 def _of_one_name(modes: Sequence[MeasuredMode]) -> list[float]:
@@ -97,15 +122,22 @@ def _of_one_name(modes: Sequence[MeasuredMode]) -> list[float]:
     return [distance * (1 + ROUNDING) for distance in apart if distance <= WIDEST]
 
 
-def _as_seen(mode: PredictedMode, modes: Sequence[MeasuredMode]) -> PredictedMode:
-    """Called by the one of its counts of node planes that was measured nearest to its frequency."""
+def _by_name(modes: Sequence[MeasuredMode]) -> Named:
+    """ln f of measured modes by order and count of node planes."""
+    named: dict[tuple[int | None, int | None], list[float]] = {}
+    for row in modes:
+        named.setdefault((row.order, row.axial), []).append(log(row.frequency_hz))
+    return named
+
+
+def _counted(mode: PredictedMode, measured: Named) -> int | None:
+    """The one of a mode's counts of node planes that was measured nearest to its frequency."""
     counts = mode.shown or (mode.axial,)
     if mode.other_axial is not None:
         counts = (*counts, mode.other_axial)
     if counts == (mode.axial,):
-        return mode
-    away = dict.fromkeys(counts, np.inf)
-    for row in modes:
-        if row.order == mode.order and row.axial in away:
-            away[row.axial] = min(away[row.axial], abs(np.log(row.frequency_hz) - mode.log_f))
-    return replace(mode, counted=min(away, key=away.__getitem__))
+        return mode.axial
+    return min(
+        counts,
+        key=lambda n: min((abs(f - mode.log_f) for f in measured.get((mode.order, n), ())), default=inf),
+    )

@@ -10,7 +10,7 @@ from typing import cast
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.diagnose.features.assignment import NEAR, Keys, assigned
+from statorhom.diagnose.features.assignment import NEAR, Keys, Sought, sought
 from statorhom.diagnose.features.damping import (
     free_losses,
     is_damped,
@@ -119,7 +119,7 @@ class Hypothesis(AnyHypothesis):
         values, actions = self.study.constants.values(z[: self.constants]), self.actions(z)
         held: dict[str, Keys | Partners] = {}
         names: dict[str, Names] = {}
-        free: list[tuple[MeasuredTest, Mapping[ModeKey, PredictedMode]]] = []
+        free: list[tuple[Sought, Mapping[ModeKey, PredictedMode]]] = []
         for stage in self.study.stages:
             for test in stage.tests:
                 found = self._predicted(stage, test, values, actions, self.mark(z))
@@ -127,22 +127,20 @@ class Hypothesis(AnyHypothesis):
                 if test.support != FREE:
                     held[test.name] = self._partners(stage, test, found, z)
                 else:
-                    free.append((test, counted_at_planes(stage, test, found)))
+                    shown = counted_at_planes(stage, test, found)
+                    free.append((sought(test, self.modes(test, actions), shown), shown))
         rest = replace(self, held=held, names=names)
-        far, near = (rest._with_free(free, actions, reach) for reach in (1.0, NEAR))
+        far, near = (rest._with_free(free, reach) for reach in (1.0, NEAR))
         if far.held == near.held:
             return far
         return min(far, near, key=lambda h: float(np.sum(h.residuals(z) ** 2)) + h.charge(z))
 
     def _with_free(
-        self,
-        free: Sequence[tuple[MeasuredTest, Mapping[ModeKey, PredictedMode]]],
-        actions: Sequence[Action],
-        reach: float,
+        self, free: Sequence[tuple[Sought, Mapping[ModeKey, PredictedMode]]], reach: float
     ) -> Hypothesis:
         """With partners of free tests too, no farther away than `reach` says."""
-        keys = {test.name: assigned(test, self.modes(test, actions), found, reach) for test, found in free}
-        missed = sum(detection_cost(test, keys[test.name], found) for test, found in free)
+        keys = {among.test.name: among.within(reach) for among, _ in free}
+        missed = sum(detection_cost(among.test, keys[among.test.name], found) for among, found in free)
         return replace(self, held={**(self.held or {}), **keys}, missed=missed)
 
     def _partners(

@@ -116,9 +116,8 @@ def with_rules(
 
 def material_vector(materials: Materials, regions: Sequence[str]) -> np.ndarray:
     """Nine Hooke entries and the density of every region, one after the other."""
-    return np.concatenate(
-        [np.r_[hooke_coefficients(materials[r].hooke), materials[r].density] for r in regions]
-    )
+    of_region = [materials[region] for region in regions]
+    return np.concatenate([part for m in of_region for part in (hooke_coefficients(m.hooke), (m.density,))])
 
 
 def slopes_by_materials(
