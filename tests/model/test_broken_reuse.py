@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+import weakref
 from dataclasses import replace
 from unittest.mock import Mock
 
@@ -47,6 +49,19 @@ def test_springs_at_known_points_give_the_same_as_new_ones(basis: SymmetricBasis
     assert again.coupled.statics.to_units is solved(basis, first).coupled.statics.to_units
     anew = solved(replace(basis), second)
     np.testing.assert_allclose(again.eigenvalues, anew.eigenvalues, rtol=1e-10)
+
+
+def test_a_basis_that_nobody_holds_is_freed_at_once(basis: SymmetricBasis) -> None:
+    """What it keeps for known places must not hold it: a diagnosis makes dozens of them, of 100 MB each."""
+    own = replace(basis)
+    assert len(solved(own, held(own, 1e10), lump(own.mesh, 1.0, 0.03, 0.1)).coupled.statics)
+    gone = weakref.ref(own)
+    gc.disable()
+    try:
+        del own
+        assert gone() is None
+    finally:
+        gc.enable()
 
 
 def test_pieces_beside_springs_at_known_points_are_projected_once(

@@ -18,6 +18,7 @@ from statorhom.model.broken.basis import SymmetricBasis
 from statorhom.model.broken.change import Attachment
 from statorhom.model.broken.copies import MovedCopies
 from statorhom.model.broken.pieces import Pieces
+from statorhom.model.broken.problem_basis import ProblemBasis
 from statorhom.model.broken.surface_answers import Answers
 from statorhom.model.broken.waves import Waves
 
@@ -30,31 +31,29 @@ Loads = Mapping[bool, np.ndarray]
 class StaticResponses:
     """To unit loads on some motions: all that springs and masses of whatever size on them share.
 
+    The basis keeps those of the latest places, so they do not hold the basis: two that hold each other are freed only
+    when Python looks for cycles, and these are large.
+
     Parameters
     ----------
-    basis : of the symmetric stator.
+    problems : of the symmetric stator, with their bases.
+    slots : number of slot pitches.
     loaded : (problems, s, 2, a) unit loads Lᵀ, as `SurfaceAnswers.loads` has them.
+    answers : to the unit loads.
     """
 
-    basis: SymmetricBasis
+    problems: tuple[ProblemBasis, ...]
+    slots: int
     loaded: np.ndarray
+    answers: Answers
 
     def __len__(self) -> int:
         return int(self.loaded.shape[-1])
 
     @cached_property
-    def answers(self) -> Answers:
-        """To the unit loads."""
-        if len(self) == 0:  # the surface's responses would be solved for nothing
-            basis, none = len(self.basis.values), np.zeros((0, 0))
-            probes = np.zeros((len(self.basis.probes), 0))
-            return Answers(np.zeros((0, basis)), np.zeros((basis, 0)), (probes, probes), none, none)
-        return self.basis.surface.answers(self.loaded)
-
-    @cached_property
     def loads(self) -> tuple[Loads, ...]:
         """Per problem: family → (s, a) unit loads on the coordinates that move the surface."""
-        sectors = [p.sector for p in self.basis.problems]
+        sectors = [p.sector for p in self.problems]
         return tuple(
             {sine: own[: len(sector.loaded), int(sine)] for sine in sector.families}
             for own, sector in zip(self.loaded, sectors, strict=True)
@@ -63,7 +62,7 @@ class StaticResponses:
     @cached_property
     def responses(self) -> tuple[Loads, ...]:
         """Per problem: family → (m, a) coordinates of Y."""
-        pairs = zip(self.basis.problems, self.loads, strict=True)
+        pairs = zip(self.problems, self.loads, strict=True)
         return tuple({sine: p.sector.responses @ load for sine, load in loads.items()} for p, loads in pairs)
 
     @cached_property
@@ -72,14 +71,12 @@ class StaticResponses:
         shapes: list[np.ndarray] = []
         order: list[int] = []
         chosen, count = {False: np.empty(0, int), True: np.empty(0, int)}, len(self)
-        for problem, parts in zip(self.basis.problems, self.responses, strict=True):
+        for problem, parts in zip(self.problems, self.responses, strict=True):
             for sine, part in parts.items():
                 chosen[sine] = np.r_[chosen[sine], len(shapes) * count + np.arange(count)]
                 shapes.append(problem.sector.space.expand(part))
                 order.append(problem.sector.space.order)
-        columns = Waves(
-            np.hstack(shapes), np.repeat(order, count), chosen[False], chosen[True], self.basis.mesh.slots
-        )
+        columns = Waves(np.hstack(shapes), np.repeat(order, count), chosen[False], chosen[True], self.slots)
         return columns, np.tile(np.eye(count), (len(shapes), 1))
 
     @cached_property
@@ -142,11 +139,24 @@ def statics(basis: SymmetricBasis, attachments: Sequence[Attachment]) -> Statics
     if used is None:
         to_units = basis.statics.once(
             tuple(a.place for a in attachments),
-            lambda: StaticResponses(basis, _loads(basis, attachments, np.eye(len(stiffness)))),
+            lambda: _responses(basis, _loads(basis, attachments, np.eye(len(stiffness)))),
         )
         return Statics(to_units, stiffness, mass)
     loads = _loads(basis, attachments, used)
-    return Statics(StaticResponses(basis, loads), used.T @ stiffness @ used, used.T @ mass @ used)
+    return Statics(_responses(basis, loads), used.T @ stiffness @ used, used.T @ mass @ used)
+
+
+def _responses(basis: SymmetricBasis, loaded: np.ndarray) -> StaticResponses:
+    """To unit loads (problems, s, 2, a)."""
+    return StaticResponses(basis.problems, basis.mesh.slots, loaded, _answers(basis, loaded))
+
+
+def _answers(basis: SymmetricBasis, loaded: np.ndarray) -> Answers:
+    if loaded.shape[-1] == 0:  # the surface's responses would be solved for nothing
+        size, none = len(basis.values), np.zeros((0, 0))
+        probes = np.zeros((len(basis.probes), 0))
+        return Answers(np.zeros((0, size)), np.zeros((size, 0)), (probes, probes), none, none)
+    return basis.surface.answers(loaded)
 
 
 def _carrying(stiffness: np.ndarray, mass: np.ndarray) -> np.ndarray | None:
