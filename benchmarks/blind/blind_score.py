@@ -165,6 +165,7 @@ def proportions(rows: Sequence[Mapping[str, Any]]) -> dict[str, tuple[int, int]]
     return {
         "effect right, snr >= 4": _count(single, "effect_right"),
         "class right, snr >= 4": _count(single, "class_right"),
+        "right effect leads, snr >= 4, whatever the verdict": _leads_rightly(single),
         "doubles: both right": _count([r for r in rows if r["group"] == "double"], "effect_right"),
         "ambiguous: right verdict": _count([r for r in rows if r["group"] == "ambiguous"], "verdict_right"),
         "named on nothing missing": _false_names(rows, "nothing"),
@@ -215,6 +216,11 @@ def _values(rows: Sequence[Mapping[str, Any]], key: str) -> list[float]:
 
 def _count(rows: Sequence[Mapping[str, Any]], key: str) -> tuple[int, int]:
     return sum(bool(r.get(key)) for r in rows), len(rows)
+
+
+def _leads_rightly(rows: Sequence[Mapping[str, Any]]) -> tuple[int, int]:
+    """Named, or the first alternative of what was not named."""
+    return sum(r.get("best") == r["truth"] for r in rows), len(rows)
 
 
 def _false_names(rows: Sequence[Mapping[str, Any]], group: str) -> tuple[int, int]:

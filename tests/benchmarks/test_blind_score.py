@@ -98,15 +98,19 @@ def test_a_wrong_input_of_another_key_has_no_magnitude() -> None:
 def test_figures_count_what_they_say() -> None:
     base = {"data": "table", "snr": 9.0, "seconds": 1.0, "truth": "x", "template": "stack"}
     rows = [
-        base | {"group": "single", "verdict": "named", "effect_right": True, "class_right": True},
+        base
+        | {"group": "single", "verdict": "named", "best": "x", "effect_right": True, "class_right": True},
         base | {"group": "single", "verdict": "failed", "fault": "no answer"},
+        base | {"group": "single", "verdict": "ambiguous", "best": "x", "named": ""},
+        base | {"group": "single", "verdict": "unknown", "best": "y", "named": ""},
         base
         | {"group": "single", "verdict": "none", "snr": 1.0, "effect_right": False, "class_right": False},
         base | {"group": "nothing", "verdict": "named", "named": "ovality"},
         base | {"group": "nothing", "verdict": "none", "verdict_right": True},
     ]
     figures = summary(rows)
-    assert figures["effect right, snr >= 4"] == 0.5
+    assert figures["effect right, snr >= 4"] == 0.25
+    assert figures["right effect leads, snr >= 4, whatever the verdict"] == 0.5
     assert figures["named on nothing missing"] == 0.5
     assert np.isnan(figures["named outside the library"])
     assert "| false name | x (nothing, table) | ovality | 1 |" in markdown(rows, 5)
