@@ -220,7 +220,7 @@ def _count(rows: Sequence[Mapping[str, Any]], key: str) -> tuple[int, int]:
 
 def _leads_rightly(rows: Sequence[Mapping[str, Any]]) -> tuple[int, int]:
     """Named, or the first alternative of what was not named."""
-    return sum(r.get("best") == r["truth"] for r in rows), len(rows)
+    return sum(r.get("best", "") == r.get("effect") for r in rows), len(rows)
 
 
 def _false_names(rows: Sequence[Mapping[str, Any]], group: str) -> tuple[int, int]:

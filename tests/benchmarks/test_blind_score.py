@@ -99,10 +99,17 @@ def test_figures_count_what_they_say() -> None:
     base = {"data": "table", "snr": 9.0, "seconds": 1.0, "truth": "x", "template": "stack"}
     rows = [
         base
-        | {"group": "single", "verdict": "named", "best": "x", "effect_right": True, "class_right": True},
+        | {
+            "group": "single",
+            "verdict": "named",
+            "best": "x",
+            "effect": "x",
+            "effect_right": True,
+            "class_right": True,
+        },
         base | {"group": "single", "verdict": "failed", "fault": "no answer"},
-        base | {"group": "single", "verdict": "ambiguous", "best": "x", "named": ""},
-        base | {"group": "single", "verdict": "unknown", "best": "y", "named": ""},
+        base | {"group": "single", "verdict": "ambiguous", "best": "x", "effect": "x", "named": ""},
+        base | {"group": "single", "verdict": "unknown", "best": "y", "effect": "x", "named": ""},
         base
         | {"group": "single", "verdict": "none", "snr": 1.0, "effect_right": False, "class_right": False},
         base | {"group": "nothing", "verdict": "named", "named": "ovality"},
