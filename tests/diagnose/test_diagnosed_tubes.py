@@ -59,7 +59,10 @@ def test_a_lump_is_named_and_applied_and_the_tube_identified_with_it(tmp_path: P
     assert lump.region == "tube"
     # frequencies of a free ring tell no place
     assert lump.location is None
-    assert found.fit.after.rms_percent < 0.3 * found.fit.before.rms_percent
+    # lines have 0.05 % of noise; the declared tube makes up for much of what a lump does to them, but not for all
+    assert found.fit.after.rms_percent < 0.6 * found.fit.before.rms_percent
+    assert found.fit.held_out is not None
+    assert found.fit.held_out.after_rms_percent < 0.35 * found.fit.held_out.before_rms_percent
     out = tmp_path / "out"
     [stage] = tomllib.loads((out / "study.toml").read_text(encoding="utf-8"))["stages"]
     [effect] = stage["effects"]
