@@ -68,14 +68,7 @@ def sought(
     lines = [line for mode in predicted.values() for line in _lines(mode, _counted(mode, measured))]
     # a heavy lump may part a doublet's lines by more than any scatter does
     apart = [DOUBLET_SPLIT, *(AS_FAR * abs(m.split) / 2 for m in predicted.values()), *_of_one_name(modes)]
-    return Sought(test, modes, sorted(lines, key=lambda line: line.frequency_hz), max(apart))
-
-
-def assigned(
-    test: MeasuredTest, modes: Sequence[MeasuredMode], predicted: Mapping[ModeKey, PredictedMode]
-) -> Keys:
-    """Named partner of every measured mode."""
-    return sought(test, modes, predicted).within(1.0)
+    return Sought(test, modes, tuple(sorted(lines, key=lambda line: line.frequency_hz)), max(apart))
 
 
 @dataclass(frozen=True)
