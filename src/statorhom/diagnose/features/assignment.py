@@ -67,7 +67,7 @@ def sought(
     measured = _by_name(modes)
     lines = [line for mode in predicted.values() for line in _lines(mode, _counted(mode, measured))]
     # a heavy lump may part a doublet's lines by more than any scatter does
-    apart = [DOUBLET_SPLIT, *(AS_FAR * abs(m.split) / 2 for m in predicted.values()), *_of_one_name(modes)]
+    apart = [DOUBLET_SPLIT, *(AS_FAR * abs(m.split) / 2 for m in predicted.values()), *_of_one_name(measured)]
     return Sought(test, modes, tuple(sorted(lines, key=lambda line: line.frequency_hz)), max(apart))
 
 
@@ -105,22 +105,21 @@ def _lines(mode: PredictedMode, axial: int | None) -> list[_Line]:
     return [_Line(mode, axial, float(np.exp(mode.log_f + side * away)), 1) for side in (-1, 1)]
 
 
-def _of_one_name(modes: Sequence[MeasuredMode]) -> list[float]:
-    """How far (of ln f) pairs of lines lie apart that alone bear one name."""
-    named: dict[tuple[int, int], list[float]] = {}
-    for mode in modes:
-        if mode.order and mode.axial is not None:
-            named.setdefault((mode.order, mode.axial), []).append(float(np.log(mode.frequency_hz)))
-    apart = [float(np.ptp(lines)) for lines in named.values() if len(lines) == 2]
-    return [distance * (1 + ROUNDING) for distance in apart if distance <= WIDEST]
-
-
 def _by_name(modes: Sequence[MeasuredMode]) -> Named:
     """ln f of measured modes by order and count of node planes."""
     named: dict[tuple[int | None, int | None], list[float]] = {}
     for row in modes:
         named.setdefault((row.order, row.axial), []).append(log(row.frequency_hz))
     return named
+
+
+def _of_one_name(measured: Named) -> list[float]:
+    """How far (of ln f) pairs of lines lie apart that alone bear one name."""
+    pairs = [
+        lines for (order, axial), lines in measured.items() if order and axial is not None and len(lines) == 2
+    ]
+    apart = [max(lines) - min(lines) for lines in pairs]
+    return [distance * (1 + ROUNDING) for distance in apart if distance <= WIDEST]
 
 
 def _counted(mode: PredictedMode, measured: Named) -> int | None:

@@ -1,1 +1,1 @@
-"""Measurements that could be made next, and what each would tell."""
+"""Measurements that could be made next: one file per kind, each a list of options with their costs, and the choice."""

@@ -41,7 +41,6 @@ class PredictedMode(NamedByMode):
     scattered : relative split by a unit of the scatter of its order.
     other_axial : count of node planes that the hypothesis may make it show instead of its own.
     shown : counts that a test's planes may show instead of its own, the likeliest first; empty where they are unknown.
-    counted : what it is counted by, where that is not its own count.
     profile : (heights,) its order's radial motion at the stage's `heights_m`; None where nobody measured it.
     chance : that what is called by its name is what this says.
     ways : what else may be.
@@ -58,14 +57,13 @@ class PredictedMode(NamedByMode):
     scattered: float = 1.0
     other_axial: int | None = None
     shown: tuple[int, ...] = ()
-    counted: int | None = None
     profile: np.ndarray | None = None
     chance: float = 1.0
     ways: tuple[Way, ...] = ()
 
     @property
     def axial(self) -> int | None:
-        return self.mode.axial if self.counted is None else self.counted
+        return self.mode.axial
 
     @property
     def frequency_hz(self) -> float:
