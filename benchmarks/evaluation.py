@@ -24,15 +24,15 @@ from threadpoolctl import threadpool_limits
 
 from statorhom import Study
 from statorhom.errors import MaterialError
-from statorhom.identify.optimizers.workers import Tick, Workers
-from statorhom.identify.parameters import Parameter, ParameterSpace
-from statorhom.identify.priors import Carried, stage_space
-from statorhom.identify.refinement import MeshSeries
-from statorhom.identify.settings import Settings
-from statorhom.identify.stage_fit import search_space
-from statorhom.identify.stage_materials import StageMaterials
-from statorhom.identify.stage_setup import analytic_values, stage_setup
-from statorhom.identify.training import REACH, training_materials
+from statorhom.identify.bases.training import REACH, training_materials
+from statorhom.identify.fits.priors import Carried, stage_space
+from statorhom.identify.fits.stage_fit import search_space
+from statorhom.identify.parameters.parameter_space import Parameter, ParameterSpace
+from statorhom.identify.processes.workers import Tick, Workers
+from statorhom.identify.residuals.refinement import MeshSeries
+from statorhom.identify.stages.settings import Settings
+from statorhom.identify.stages.stage_materials import StageMaterials
+from statorhom.identify.stages.stage_setup import analytic_values, stage_setup
 from statorhom.model.affine import AffineModel, Materials, hooke_coefficients
 from statorhom.model.cyclic.half_pitch import half_pitches
 from statorhom.model.cyclic.modes import modes_of

@@ -28,9 +28,9 @@ import pandas as pd
 from statorhom.fleet.batch import fit_fleet
 from statorhom.fleet.local import LocalProcesses
 from statorhom.geometry import stator_geometry
-from statorhom.identify.optimizers.workers import Workers
-from statorhom.identify.refinement import Band, MeshSeries
-from statorhom.identify.settings import FITTING_MESH
+from statorhom.identify.processes.workers import Workers
+from statorhom.identify.residuals.refinement import Band, MeshSeries
+from statorhom.identify.stages.settings import FITTING_MESH
 from statorhom.materials.symmetry import constant_names
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.materials.typical import prior_range

@@ -25,8 +25,8 @@ import numpy as np
 
 from statorhom.geometry.tested_object import object_geometry
 from statorhom.identify.chain import chain
-from statorhom.identify.refinement import MeshSeries
-from statorhom.identify.settings import Settings
+from statorhom.identify.residuals.refinement import MeshSeries
+from statorhom.identify.stages.settings import Settings
 from statorhom.materials.isotropic import Isotropic
 from statorhom.materials.orthotropic import Orthotropic
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic

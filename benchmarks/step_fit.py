@@ -25,12 +25,12 @@ from calculix import INSTALL, ROOT, ccx_version
 from study_time import CELLS, MODES, timed_calculix
 
 from statorhom import Study
-from statorhom.identify.announce import Progress
-from statorhom.identify.optimizers.workers import Workers
-from statorhom.identify.priors import Carried
-from statorhom.identify.settings import Settings
-from statorhom.identify.stage_run import StageRun, run_stage
-from statorhom.identify.stage_setup import StageSetup, analytic_values, stage_setup
+from statorhom.identify.fits.priors import Carried
+from statorhom.identify.fits.stage_run import StageRun, run_stage
+from statorhom.identify.processes.announce import Progress
+from statorhom.identify.processes.workers import Workers
+from statorhom.identify.stages.settings import Settings
+from statorhom.identify.stages.stage_setup import StageSetup, analytic_values, stage_setup
 from statorhom.mesh import MeshDensity, mesh_step, uniform
 from statorhom.study.atomic import write_text
 

@@ -30,7 +30,7 @@ import numpy as np
 import pandas as pd
 
 from statorhom import Study
-from statorhom.identify.settings import Settings
+from statorhom.identify.stages.settings import Settings
 from statorhom.materials.isotropic import Isotropic
 from statorhom.mesh import MeshDensity, mesh_step, uniform
 from statorhom.model.affine import AffineModel, Material, assemble

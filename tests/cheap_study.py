@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from statorhom.identify.settings import Settings
+from statorhom.identify.stages.settings import Settings
 from statorhom.mesh.density import COARSEST, MeshDensity
 
 GEOMETRY = """\

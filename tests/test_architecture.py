@@ -52,23 +52,37 @@ ALLOWED["cli"] = {
 ALLOWED["__init__"] = {"errors", "api"}
 ALLOWED["__main__"] = {"cli"}
 
-# folders of the diagnosis, in the order in which data goes through them; its own files stand above all of these
-DIAGNOSIS = (
-    "processes",
-    "measured",
-    "bases",
-    "contacts",
-    "stages",
-    "predicted",
-    "features",
-    "fits",
-    "located",
-    "next_measurement",
-    "evidence",
-    "searches",
-    "coupons",
-)
-OWN_FILES = {path.stem for path in (SOURCE / "diagnose").glob("*.py")}
+# folders of a part, in the order in which data goes through them; the part's own files stand above all of these
+FOLDERS = {
+    "identify": (
+        "processes",
+        "parameters",
+        "optimizers",
+        "inference",
+        "stages",
+        "residuals",
+        "bases",
+        "surface",
+        "fits",
+        "comparison",
+        "results",
+    ),
+    "diagnose": (
+        "processes",
+        "measured",
+        "bases",
+        "contacts",
+        "stages",
+        "predicted",
+        "features",
+        "fits",
+        "located",
+        "next_measurement",
+        "evidence",
+        "searches",
+        "coupons",
+    ),
+}
 
 LONGEST_FILE, LONGEST_FUNCTION = 350, 60
 
@@ -117,18 +131,19 @@ def test_imports_only_what_lies_before(path: Path) -> None:
     assert set(imports(path)) - {mine} <= ALLOWED[mine]
 
 
-def test_the_diagnosis_has_no_other_folders() -> None:
-    folders = {
-        path.parent.relative_to(SOURCE / "diagnose").parts for path in (SOURCE / "diagnose").rglob("*.py")
-    }
-    assert folders == {(), *((name,) for name in DIAGNOSIS)}
+@pytest.mark.parametrize("name", FOLDERS)
+def test_a_part_has_no_other_folders(name: str) -> None:
+    folders = {path.parent.relative_to(SOURCE / name).parts for path in FILES if part(path) == name}
+    assert folders == {(), *((folder,) for folder in FOLDERS[name])}
 
 
-@pytest.mark.parametrize("path", [f for f in FILES if part(f) == "diagnose"], ids=identified)
-def test_a_diagnosis_goes_one_way(path: Path) -> None:
-    _, *folder, _ = path.relative_to(SOURCE).parts
-    before = DIAGNOSIS[: DIAGNOSIS.index(folder[0]) + 1] if folder else (*DIAGNOSIS, *OWN_FILES)
-    within = {name.split(".")[1] for name in imported(path) if name.startswith("diagnose.")}
+@pytest.mark.parametrize("path", [f for f in FILES if part(f) in FOLDERS], ids=identified)
+def test_data_goes_through_folders_one_way(path: Path) -> None:
+    mine, *folder, _ = path.relative_to(SOURCE).parts
+    order = FOLDERS[mine]
+    own_files = {file.stem for file in (SOURCE / mine).glob("*.py")}
+    before = order[: order.index(folder[0]) + 1] if folder else {*order, *own_files}
+    within = {name.split(".")[1] for name in imported(path) if name.startswith(f"{mine}.")}
     assert within <= set(before)
 
 

@@ -18,7 +18,7 @@ from cheap_fleet import Inline, write_fleet
 from cheap_study import coarse, edit, write_study
 from command import statorhom
 from statorhom.fleet.executor import Lost
-from statorhom.identify.stage_run import Announce
+from statorhom.identify.fits.stage_run import Announce
 from statorhom.results.files import read_results
 
 PROGRAM = [sys.executable, "-c", "from statorhom.cli import main; main()"]

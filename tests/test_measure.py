@@ -71,7 +71,7 @@ def test_a_file_that_is_no_recording_is_refused(tmp_path: Path) -> None:
 def test_remarks_of_recordings_reach_the_report(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from cheap_study import coarse
     from statorhom import Study
-    from statorhom.identify import recorded_tests
+    from statorhom.identify.stages import recorded_tests
 
     extracted = recorded_tests.measured_modes
     monkeypatch.setattr("statorhom.api.Settings", coarse)

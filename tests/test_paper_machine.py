@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from statorhom import Study
-from statorhom.identify.stage_setup import stage_setup
+from statorhom.identify.stages.stage_setup import stage_setup
 from statorhom.materials.isotropic import Isotropic
 from statorhom.mesh.density import COARSEST, MeshDensity, uniform
 from statorhom.mesh.extrude import mesh_step

@@ -10,7 +10,7 @@ from command import statorhom
 from coupon_study import table_text
 from statorhom.api import Study
 from statorhom.identify.chain import chain
-from statorhom.identify.settings import Settings
+from statorhom.identify.stages.settings import Settings
 from statorhom.report import write_report
 from statorhom.simulate import simulate_study
 from statorhom.study.study import load_study

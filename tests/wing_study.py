@@ -9,7 +9,7 @@ import numpy as np
 
 from statorhom.geometry.tested_object import object_geometry
 from statorhom.geometry.wing import WingGeometry
-from statorhom.identify.stage_setup import stage_setup
+from statorhom.identify.stages.stage_setup import stage_setup
 from statorhom.materials.isotropic import Isotropic
 from statorhom.materials.orthotropic import Orthotropic
 from statorhom.mesh.wing import wing_mesh

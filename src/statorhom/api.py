@@ -11,10 +11,10 @@ from statorhom.diagnose.run import diagnose_study
 from statorhom.errors import InputFileError
 from statorhom.geometry.stator import StatorGeometry, stator_geometry
 from statorhom.geometry.tested_object import object_geometry
-from statorhom.identify.announce import Announce, silent
 from statorhom.identify.chain import chain
-from statorhom.identify.recorded_tests import with_recorded_tables
-from statorhom.identify.settings import Settings
+from statorhom.identify.processes.announce import Announce, silent
+from statorhom.identify.stages.recorded_tests import with_recorded_tables
+from statorhom.identify.stages.settings import Settings
 from statorhom.report import write_report
 from statorhom.results.diagnosis import Diagnosis
 from statorhom.results.files import check_folder, read_results

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from statorhom.errors import InputFileError, RecordingError
 from statorhom.extraction.measured_modes import MeasuredModes, measured_modes
-from statorhom.identify.announce import Announce, silent
+from statorhom.identify.processes.announce import Announce, silent
 from statorhom.modes.plan_form import ordinal_labels
 from statorhom.recordings.estimation.settings import SweepSettings
 from statorhom.recordings.placement import Placement

@@ -13,20 +13,20 @@ from threadpoolctl import threadpool_limits
 
 from statorhom.errors import InputFileError
 from statorhom.geometry.tested_object import object_geometry
-from statorhom.identify.bands import LEAST_VISIBLE, highest_hz
-from statorhom.identify.block_names import block_names
-from statorhom.identify.effect_shifts import effect_shifts
-from statorhom.identify.model_error import ModelError, model_error
-from statorhom.identify.optimizers.workers import Workers
-from statorhom.identify.priors import Carried, stage_space
-from statorhom.identify.refinement import Band, MeshSeries
-from statorhom.identify.settings import Settings
-from statorhom.identify.stage_checks import check_materials
-from statorhom.identify.stage_materials import StageMaterials
-from statorhom.identify.stage_problem import CorrectedMode, corrected
-from statorhom.identify.stage_run import PREDICTED_MESHES, PREDICTED_MODES
-from statorhom.identify.stage_setup import StageSetup, TestModes, stage_setup
-from statorhom.identify.stage_shapes import shape_file
+from statorhom.identify.comparison.stage_shapes import shape_file
+from statorhom.identify.fits.priors import Carried, stage_space
+from statorhom.identify.fits.stage_checks import check_materials
+from statorhom.identify.fits.stage_run import PREDICTED_MESHES, PREDICTED_MODES
+from statorhom.identify.processes.workers import Workers
+from statorhom.identify.residuals.effect_shifts import effect_shifts
+from statorhom.identify.residuals.model_error import ModelError, model_error
+from statorhom.identify.residuals.refinement import Band, MeshSeries
+from statorhom.identify.residuals.stage_problem import CorrectedMode, corrected
+from statorhom.identify.stages.bands import LEAST_VISIBLE, highest_hz
+from statorhom.identify.stages.block_names import block_names
+from statorhom.identify.stages.settings import Settings
+from statorhom.identify.stages.stage_materials import StageMaterials
+from statorhom.identify.stages.stage_setup import StageSetup, TestModes, stage_setup
 from statorhom.materials.hooke import Hooke
 from statorhom.mesh.hex_mesh import PartMesh
 from statorhom.mesh.mirror_mesh import MirrorMesh

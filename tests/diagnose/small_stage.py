@@ -8,7 +8,7 @@ from small_stators import MATERIALS, stator_mesh
 
 from statorhom.diagnose.bases.ring_basis import ring_basis
 from statorhom.diagnose.stages.stage_model import StageModel
-from statorhom.identify.model_error import ModelError
+from statorhom.identify.residuals.model_error import ModelError
 from statorhom.mesh import uniform
 from statorhom.model.affine import Materials, assemble
 

@@ -15,7 +15,7 @@ from statorhom.diagnose.stages.constants import held_by_lines, study_constants
 from statorhom.diagnose.stages.stage_model import stage_model
 from statorhom.diagnose.stages.study_model import StudyModel
 from statorhom.geometry.stator import stator_geometry
-from statorhom.identify.stage_setup import stage_setup
+from statorhom.identify.stages.stage_setup import stage_setup
 from statorhom.mesh import uniform
 
 

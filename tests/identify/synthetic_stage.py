@@ -5,11 +5,11 @@ from functools import cache
 import numpy as np
 
 from example_stators import stator
-from statorhom.identify.model_error import ModelError
-from statorhom.identify.priors import Carried, stage_space
-from statorhom.identify.stage_materials import RegionModel, StageMaterials
-from statorhom.identify.stage_problem import StageProblem
-from statorhom.identify.training import training_materials
+from statorhom.identify.bases.training import training_materials
+from statorhom.identify.fits.priors import Carried, stage_space
+from statorhom.identify.residuals.model_error import ModelError
+from statorhom.identify.residuals.stage_problem import StageProblem
+from statorhom.identify.stages.stage_materials import RegionModel, StageMaterials
 from statorhom.materials.density import RegionDensity
 from statorhom.mesh import MeshDensity, mesh_step, uniform
 from statorhom.model.affine import Material, assemble

@@ -12,9 +12,9 @@ import pytest
 from cheap_study import coarse, edit, write_study
 from statorhom.errors import ResultsError
 from statorhom.identify import chain as chain_module
-from statorhom.identify.announce import Progress
 from statorhom.identify.chain import chain
-from statorhom.identify.settings import Settings
+from statorhom.identify.processes.announce import Progress
+from statorhom.identify.stages.settings import Settings
 from statorhom.results.files import read_results
 from statorhom.results.schema import Results, StageResult
 from statorhom.results.shape_file import read_shape_file

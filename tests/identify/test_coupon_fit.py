@@ -22,8 +22,8 @@ from statorhom.api import Study
 from statorhom.geometry.block import BlockGeometry
 from statorhom.geometry.tested_object import object_geometry
 from statorhom.identify.chain import chain
-from statorhom.identify.settings import Settings
-from statorhom.identify.stage_setup import stage_setup
+from statorhom.identify.stages.settings import Settings
+from statorhom.identify.stages.stage_setup import stage_setup
 from statorhom.materials.isotropic import Isotropic
 from statorhom.materials.orthotropic import Orthotropic
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic

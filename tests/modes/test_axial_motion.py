@@ -33,7 +33,7 @@ def test_sheets_slide_where_antisymmetric_modes_lie_low() -> None:
 def test_it_agrees_with_the_full_model(yoke_mm: float, shear_pa: float, slides: bool) -> None:
     """Within two standard deviations on plain rings that had no part in the lever's figures."""
     from example_stators import stator
-    from statorhom.identify.simulated_shapes import shape_grid, surface_motion
+    from statorhom.identify.comparison.simulated_shapes import shape_grid, surface_motion
     from statorhom.materials.transversely_isotropic import TransverselyIsotropic
     from statorhom.mesh import MeshDensity, mesh_step, uniform
     from statorhom.model.affine import Material, assemble

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from statorhom.identify.announce import Announce, silent
+from statorhom.identify.processes.announce import Announce, silent
 
 
 @contextmanager

@@ -55,8 +55,8 @@ from statorhom.diagnose.searches.leading_effects import Leading, leading_effects
 from statorhom.diagnose.searches.second_effects import confirmed_pairs
 from statorhom.diagnose.searches.sharper import BEHIND
 from statorhom.geometry.tested_object import ObjectGeometry, RingGeometry
-from statorhom.identify.announce import Announce, silent
-from statorhom.identify.settings import Settings
+from statorhom.identify.processes.announce import Announce, silent
+from statorhom.identify.stages.settings import Settings
 from statorhom.physics.declared import DeclaredEffect
 from statorhom.physics.library import all_candidates, library
 from statorhom.results.diagnosis import (

@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from statorhom.errors import StatorhomError
-from statorhom.identify.announce import Announce
 from statorhom.identify.chain import chain
-from statorhom.identify.recorded_tests import with_recorded_tables
-from statorhom.identify.settings import Settings
+from statorhom.identify.processes.announce import Announce
+from statorhom.identify.stages.recorded_tests import with_recorded_tables
+from statorhom.identify.stages.settings import Settings
 from statorhom.results.diagnosis import Details, RefittedRow
 from statorhom.results.schema import Results
 from statorhom.study.study import StudyFiles, load_study

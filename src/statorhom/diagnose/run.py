@@ -9,8 +9,8 @@ from statorhom.diagnose.diagnosis import diagnose
 from statorhom.diagnose.measured.recorded import measured_tests
 from statorhom.diagnose.refit_chain import with_refitted_chain
 from statorhom.geometry.tested_object import object_geometry
-from statorhom.identify.announce import Announce, silent
-from statorhom.identify.settings import Settings
+from statorhom.identify.processes.announce import Announce, silent
+from statorhom.identify.stages.settings import Settings
 from statorhom.results.diagnosis import Details, Diagnosis, write_diagnosis
 from statorhom.results.files import check_folder, earlier_stages
 from statorhom.study.study import StudyFiles

@@ -11,9 +11,9 @@ from pathlib import Path
 from statorhom.errors import InputFileError
 from statorhom.fleet.executor import Executor
 from statorhom.fleet.machine import Machine
-from statorhom.identify.announce import Announce, silent
-from statorhom.identify.recorded_tests import has_recordings, with_recorded_tables
-from statorhom.identify.settings import Settings
+from statorhom.identify.processes.announce import Announce, silent
+from statorhom.identify.stages.recorded_tests import has_recordings, with_recorded_tables
+from statorhom.identify.stages.settings import Settings
 from statorhom.study.message import one_line, quoted
 from statorhom.study.study import StudyFiles, load_study
 

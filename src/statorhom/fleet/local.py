@@ -13,7 +13,7 @@ from multiprocessing.process import BaseProcess
 from typing import Any
 
 from statorhom.fleet.executor import ATTEMPTS, Lost, Result, Task
-from statorhom.identify.optimizers.workers import start_method
+from statorhom.identify.processes.workers import start_method
 
 PATIENCE_S = 10.0  # for a worker that was told to leave
 LOST = (

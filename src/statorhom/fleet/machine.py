@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_limits
 
 from statorhom.errors import StatorhomError
 from statorhom.identify.chain import Chain, chain
-from statorhom.identify.settings import Settings
+from statorhom.identify.stages.settings import Settings
 from statorhom.modes.point_shape import TestShapes
 from statorhom.results.schema import Results
 from statorhom.study.study import StudyFiles

@@ -11,20 +11,20 @@ from pathlib import Path
 from threadpoolctl import threadpool_limits
 
 from statorhom.geometry.tested_object import ObjectGeometry, object_geometry
-from statorhom.identify.announce import Announce, silent
-from statorhom.identify.described import described
-from statorhom.identify.effect_shifts import effect_shifts
-from statorhom.identify.measured_mac import with_mac
-from statorhom.identify.optimizers.workers import Workers
-from statorhom.identify.priors import Carried
-from statorhom.identify.settings import Settings
-from statorhom.identify.stage_checks import check_design, check_materials
-from statorhom.identify.stage_remarks import recording_remarks
-from statorhom.identify.stage_result import mass_only, stage_result
-from statorhom.identify.stage_run import run_stage
-from statorhom.identify.stage_setup import StageSetup, analytic_values, check_fit, stage_setup
-from statorhom.identify.stage_shapes import free_shapes
-from statorhom.identify.supported_results import supported_results
+from statorhom.identify.comparison.measured_mac import with_mac
+from statorhom.identify.comparison.stage_shapes import free_shapes
+from statorhom.identify.comparison.supported_results import supported_results
+from statorhom.identify.fits.priors import Carried
+from statorhom.identify.fits.stage_checks import check_design, check_materials
+from statorhom.identify.fits.stage_run import run_stage
+from statorhom.identify.processes.announce import Announce, silent
+from statorhom.identify.processes.workers import Workers
+from statorhom.identify.residuals.effect_shifts import effect_shifts
+from statorhom.identify.results.described import described
+from statorhom.identify.results.stage_remarks import recording_remarks
+from statorhom.identify.results.stage_result import mass_only, stage_result
+from statorhom.identify.stages.settings import Settings
+from statorhom.identify.stages.stage_setup import StageSetup, analytic_values, check_fit, stage_setup
 from statorhom.materials.density import RegionDensity
 from statorhom.model.basis_store import BasisStore
 from statorhom.modes.point_shape import TestShapes

@@ -163,7 +163,7 @@ class FitSummary(_Frozen):
 
 
 class CarriedParameter(_Frozen):
-    """Prior of a constant as a later step needs it; see `identify.parameters.Parameter`."""
+    """Prior of a constant as a later step needs it; see `identify.parameters.parameter_space.Parameter`."""
 
     name: str
     median: float

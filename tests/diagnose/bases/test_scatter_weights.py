@@ -10,7 +10,7 @@ from small_stators import MATERIALS, ring_mesh
 from statorhom.diagnose.bases.ring_basis import ring_basis
 from statorhom.diagnose.stages.broken_response import responses
 from statorhom.diagnose.stages.stage_model import StageModel
-from statorhom.identify.model_error import ModelError
+from statorhom.identify.residuals.model_error import ModelError
 from statorhom.mesh import uniform
 from statorhom.model.affine import assemble
 from statorhom.model.broken.variations import wave

@@ -13,7 +13,7 @@ from statorhom.diagnose.bases.ring_basis import ring_basis
 from statorhom.diagnose.bases.trained_basis import trained_basis
 from statorhom.diagnose.stages.broken_response import responses
 from statorhom.diagnose.stages.stage_model import StageModel, with_reference
-from statorhom.identify.model_error import ModelError
+from statorhom.identify.residuals.model_error import ModelError
 from statorhom.mesh import uniform
 from statorhom.model.affine import Material, assemble
 from statorhom.model.broken.attachments import footed_lump, point_springs

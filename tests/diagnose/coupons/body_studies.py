@@ -14,8 +14,8 @@ from statorhom.diagnose.coupons.body_study import BodyStudy
 from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.diagnose.stages.constants import study_constants
 from statorhom.geometry.tested_object import object_geometry
-from statorhom.identify.settings import Settings
-from statorhom.identify.stage_setup import stage_setup
+from statorhom.identify.stages.settings import Settings
+from statorhom.identify.stages.stage_setup import stage_setup
 from statorhom.results.diagnosis import Estimated
 from statorhom.study.study import load_study
 

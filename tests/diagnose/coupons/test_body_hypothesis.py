@@ -12,7 +12,7 @@ from statorhom.diagnose.fits.derivatives import difference, jacobian
 from statorhom.diagnose.measured.measured_test import MeasuredPoints
 from statorhom.diagnose.stages.constants import new_constants, study_constants
 from statorhom.geometry.tested_object import object_geometry
-from statorhom.identify.stage_setup import stage_setup
+from statorhom.identify.stages.stage_setup import stage_setup
 from statorhom.physics.library import all_candidates
 from statorhom.study.study import load_study
 

@@ -11,7 +11,7 @@ import pytest
 
 from statorhom.diagnose.evidence import held_out_name
 from statorhom.diagnose.measured.measured_test import MeasuredTest
-from statorhom.identify.model_error import ModelError
+from statorhom.identify.residuals.model_error import ModelError
 from statorhom.physics.action import Action
 from statorhom.physics.candidate import Candidate
 from statorhom.study.modal_table import MeasuredMode

@@ -8,7 +8,7 @@ from statorhom.diagnose.features.mode_features import ALONE, free_features, own_
 from statorhom.diagnose.measured.feature import LOST, SINGLE
 from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.diagnose.predicted.prediction import PredictedMode
-from statorhom.identify.model_error import ModelError
+from statorhom.identify.residuals.model_error import ModelError
 from statorhom.model.stator_mode import StatorMode
 from statorhom.study.modal_table import MeasuredMode
 

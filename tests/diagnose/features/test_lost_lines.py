@@ -8,7 +8,7 @@ import pytest
 from statorhom.diagnose.features.mode_features import free_features
 from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.diagnose.predicted.prediction import PredictedMode
-from statorhom.identify.model_error import ModelError
+from statorhom.identify.residuals.model_error import ModelError
 from statorhom.model.stator_mode import StatorMode
 from statorhom.study.modal_table import MeasuredMode
 

@@ -16,7 +16,7 @@ from statorhom.diagnose.measured.feature import LOST, held_down
 from statorhom.diagnose.measured.measured_test import MeasuredSplit, MeasuredTest, PlaneShifts
 from statorhom.diagnose.predicted.prediction import PredictedMode
 from statorhom.diagnose.predicted.sensor_response import SensorResponse
-from statorhom.identify.model_error import ModelError
+from statorhom.identify.residuals.model_error import ModelError
 from statorhom.model.broken.named_response import Way
 from statorhom.model.stator_mode import StatorMode
 from statorhom.study.modal_table import MeasuredMode

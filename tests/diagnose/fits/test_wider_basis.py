@@ -9,7 +9,7 @@ from small_stators import MATERIALS, ring_mesh
 
 from statorhom.diagnose.bases.ring_basis import ring_basis
 from statorhom.diagnose.stages.stage_model import StageModel, with_snapshots
-from statorhom.identify.model_error import ModelError
+from statorhom.identify.residuals.model_error import ModelError
 from statorhom.mesh import uniform
 from statorhom.model.affine import assemble
 from statorhom.model.convergence import mode_keys

@@ -12,7 +12,7 @@ from statorhom.diagnose.bases.ring_basis import ring_basis
 from statorhom.diagnose.located.error_map import ErrorMap, binned, constitutive_error, error_maps
 from statorhom.diagnose.measured.measured_test import MeasuredShapes, MeasuredTest
 from statorhom.diagnose.stages.stage_model import StageModel
-from statorhom.identify.model_error import ModelError
+from statorhom.identify.residuals.model_error import ModelError
 from statorhom.mesh import uniform
 from statorhom.model.affine import assemble
 from statorhom.model.broken.attachments import lump

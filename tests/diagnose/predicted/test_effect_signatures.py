@@ -21,8 +21,8 @@ from statorhom.diagnose.stages.dimension_response import _shifts, changed_geomet
 from statorhom.diagnose.stages.stage_model import StageModel
 from statorhom.diagnose.stages.study_model import StudyModel
 from statorhom.geometry.stator import stator_geometry
-from statorhom.identify.model_error import ModelError
-from statorhom.identify.stage_setup import stage_setup
+from statorhom.identify.residuals.model_error import ModelError
+from statorhom.identify.stages.stage_setup import stage_setup
 from statorhom.materials.hooke import Hooke
 from statorhom.mesh import mesh_step, uniform
 from statorhom.model.affine import Material, Materials, assemble

@@ -12,7 +12,7 @@ from small_stators import stator_mesh
 from statorhom.diagnose.features.mode_features import own_sd
 from statorhom.diagnose.features.supported import OWN, SupportedReference, elastic_keys, supported_reference
 from statorhom.diagnose.predicted.sinking import held_shares, sinking
-from statorhom.identify.model_error import ModelError
+from statorhom.identify.residuals.model_error import ModelError
 from statorhom.materials.hooke import Hooke
 from statorhom.materials.isotropic import Isotropic
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic

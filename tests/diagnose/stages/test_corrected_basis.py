@@ -8,7 +8,7 @@ from small_stage import stage_of
 
 from statorhom.diagnose.stages.broken_response import responses
 from statorhom.diagnose.stages.stage_model import StageModel
-from statorhom.identify.model_error import ModelError
+from statorhom.identify.residuals.model_error import ModelError
 from statorhom.model.broken.attachments import footed_lump
 from statorhom.model.broken.change import Change
 from statorhom.model.broken.solve import solve_broken

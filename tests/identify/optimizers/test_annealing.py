@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from statorhom.errors import IdentificationError
-from statorhom.identify.bounds import Bounds
 from statorhom.identify.optimizers.annealing import SimulatedAnnealing
 from statorhom.identify.optimizers.threshold import ThresholdAccepting
+from statorhom.identify.parameters.bounds import Bounds
 
 BOX = Bounds(np.full(3, -4.0), np.full(3, 4.0))
 BOTH = pytest.mark.parametrize("optimizer", [SimulatedAnnealing(), ThresholdAccepting()], ids=["sa", "ta"])

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from statorhom.identify.bounds import Bounds
 from statorhom.identify.optimizers.annealing import SimulatedAnnealing
 from statorhom.identify.optimizers.ensemble import run_ensemble
-from statorhom.identify.optimizers.workers import Workers
+from statorhom.identify.parameters.bounds import Bounds
+from statorhom.identify.processes.workers import Workers
 
 BOX = Bounds([-4.0, -4.0], [4.0, 4.0])
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from statorhom.identify.bounds import Bounds
 from statorhom.identify.optimizers.proposal import Proposal
+from statorhom.identify.parameters.bounds import Bounds
 
 
 def test_steps_shrink_where_the_objective_is_steep_and_stay_where_it_is_flat():

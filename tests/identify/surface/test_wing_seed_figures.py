@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from statorhom.errors import IdentificationError
-from statorhom.identify.material_tests import difference_percent
+from statorhom.identify.results.material_tests import difference_percent
 from statorhom.identify.surface.confidence_band import confidence_band
 
 GVT = np.array([79.85, 114.94, 134.98, 157.75])

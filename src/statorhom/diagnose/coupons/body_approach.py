@@ -17,7 +17,7 @@ from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.diagnose.next_measurement.choice import Choice, said_of
 from statorhom.diagnose.searches.approach import Approach
 from statorhom.geometry.tested_object import ObjectGeometry
-from statorhom.identify.settings import Settings
+from statorhom.identify.stages.settings import Settings
 from statorhom.physics.plan import plan_of
 from statorhom.results.diagnosis import NextMeasurement, PlanRow
 from statorhom.study.study import StudyFiles

@@ -20,8 +20,8 @@ from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.diagnose.stages.constants import Constants, new_constants, study_constants
 from statorhom.errors import IdentificationError, StatorhomError
 from statorhom.geometry.tested_object import ObjectGeometry
-from statorhom.identify.settings import Settings
-from statorhom.identify.stage_setup import StageSetup, stage_setup
+from statorhom.identify.stages.settings import Settings
+from statorhom.identify.stages.stage_setup import StageSetup, stage_setup
 from statorhom.model.affine import Materials
 from statorhom.model.modal.modal_body import NEAR, WIDE
 from statorhom.physics.declared import declared_effects

@@ -10,7 +10,7 @@ from scipy.optimize import linear_sum_assignment
 
 from statorhom.diagnose.coupons.body_prediction import PredictedBody
 from statorhom.diagnose.measured.measured_test import MeasuredTest
-from statorhom.identify.stage_problem import EXPECTED, FOUND, HALF_FOUND, PAIRING_SD
+from statorhom.identify.residuals.stage_problem import EXPECTED, FOUND, HALF_FOUND, PAIRING_SD
 from statorhom.modes.pairing import pair
 
 FloatArray = npt.NDArray[np.float64]

@@ -12,11 +12,11 @@ from statorhom.diagnose.features.mode_features import own_sd
 from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.diagnose.stages.stage_model import BAND, FINER
 from statorhom.errors import IdentificationError
-from statorhom.identify.model_error import ModelError
-from statorhom.identify.refinement import MeshSeries
-from statorhom.identify.settings import Settings
-from statorhom.identify.stage_problem import SEEN
-from statorhom.identify.stage_setup import StageSetup
+from statorhom.identify.residuals.model_error import ModelError
+from statorhom.identify.residuals.refinement import MeshSeries
+from statorhom.identify.residuals.stage_problem import SEEN
+from statorhom.identify.stages.settings import Settings
+from statorhom.identify.stages.stage_setup import StageSetup
 from statorhom.mesh.mirror_mesh import MirrorMesh
 from statorhom.model.affine import Materials
 from statorhom.model.convergence import ModeKey, extrapolate, mode_keys

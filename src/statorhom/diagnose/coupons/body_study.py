@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 from statorhom.diagnose.coupons.body_stage import BodyStage
 from statorhom.diagnose.stages.constants import Constants
-from statorhom.identify.stage_materials import DENSITY
-from statorhom.identify.stage_setup import StageSetup
+from statorhom.identify.stages.stage_materials import DENSITY
+from statorhom.identify.stages.stage_setup import StageSetup
 from statorhom.model.affine import Materials
 from statorhom.physics.action import Action
 from statorhom.study.study import StudyFiles

@@ -17,7 +17,7 @@ from statorhom.diagnose.fits.refit import Refit, refit
 from statorhom.diagnose.measured.feature import Feature
 from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.errors import StatorhomError
-from statorhom.identify.stage_problem import LABELLED_GATE, PAIRING_SD
+from statorhom.identify.residuals.stage_problem import LABELLED_GATE, PAIRING_SD
 
 _H = TypeVar("_H", bound=AnyHypothesis)
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.diagnose.predicted.prediction import PredictedMode
-from statorhom.identify.stage_problem import GATE, LABELLED_GATE, PAIRING_SD
+from statorhom.identify.residuals.stage_problem import GATE, LABELLED_GATE, PAIRING_SD
 from statorhom.model.convergence import ModeKey
 from statorhom.modes.pairing import DOUBLET_SPLIT, pair
 from statorhom.study.modal_table import MeasuredMode

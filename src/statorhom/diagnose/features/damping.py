@@ -1,7 +1,7 @@
 """Loss factors: of the modes from those of the materials, by their shares of the strain energy.
 
-η = Σ share · η_source, as in `statorhom.identify.damping`. Modal loss factors scatter by 10-20 % from test to test, so
-that they weigh little; what they tell is which part of a stator a mode's damping comes from.
+η = Σ share · η_source, as in `statorhom.identify.results.damping`. Modal loss factors scatter by 10-20 % from test to
+test, so that they weigh little; what they tell is which part of a stator a mode's damping comes from.
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@ import numpy as np
 from statorhom.diagnose.features.assignment import Keys
 from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.diagnose.predicted.prediction import PredictedMode
-from statorhom.identify.stage_problem import chance_to_find
+from statorhom.identify.residuals.stage_problem import chance_to_find
 from statorhom.model.convergence import ModeKey
 
 HIDDEN = 1e-3  # visibility that a mode counts as having at least: a coarse ring says little of so small ones

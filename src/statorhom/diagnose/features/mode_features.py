@@ -19,7 +19,7 @@ from statorhom.diagnose.measured.feature import LOST, SINGLE, Feature, Silence
 from statorhom.diagnose.measured.measured_test import SHIFT_OWN, SHIFT_PART, MeasuredSplit, MeasuredTest
 from statorhom.diagnose.predicted.prediction import PredictedMode
 from statorhom.diagnose.predicted.sensor_response import SensorResponse
-from statorhom.identify.model_error import DEFAULT_RELATIVE_SD, ModelError
+from statorhom.identify.residuals.model_error import DEFAULT_RELATIVE_SD, ModelError
 from statorhom.model.convergence import ModeKey
 from statorhom.study.modal_table import MeasuredMode
 

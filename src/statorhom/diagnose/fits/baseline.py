@@ -19,8 +19,8 @@ from statorhom.diagnose.stages.stage_model import StageModel, mesh_error, stage_
 from statorhom.diagnose.stages.study_model import StudyModel
 from statorhom.errors import IdentificationError, StatorhomError
 from statorhom.geometry.tested_object import RingGeometry
-from statorhom.identify.settings import Settings
-from statorhom.identify.stage_setup import StageSetup, stage_setup
+from statorhom.identify.stages.settings import Settings
+from statorhom.identify.stages.stage_setup import StageSetup, stage_setup
 from statorhom.model.affine import Materials
 from statorhom.physics.declared import declared_effects
 from statorhom.physics.ring import ring_of

@@ -29,8 +29,8 @@ from statorhom.extraction.extraction import ExtractedMode
 from statorhom.extraction.flat_bodies import is_flat_body
 from statorhom.extraction.measured_modes import MeasuredModes, measured_modes
 from statorhom.extraction.modal_table_text import modal_table
-from statorhom.identify.announce import Announce, silent
-from statorhom.identify.optimizers.workers import Tick, Workers
+from statorhom.identify.processes.announce import Announce, silent
+from statorhom.identify.processes.workers import Tick, Workers
 from statorhom.modes.doublets import DoubletPair
 from statorhom.recordings.placement import Placement
 from statorhom.study.atomic import write_text

@@ -16,7 +16,7 @@ from statorhom.diagnose.stages.order_profiles import reference_profiles
 from statorhom.diagnose.stages.rated_modes import rated_modes
 from statorhom.diagnose.stages.stage_model import StageModel
 from statorhom.diagnose.stages.study_model import StudyModel
-from statorhom.identify.stage_problem import NamedByMode, seen
+from statorhom.identify.residuals.stage_problem import NamedByMode, seen
 from statorhom.model.affine import Materials, hooke_coefficients
 from statorhom.model.broken.named_response import Way
 from statorhom.model.convergence import ModeKey

@@ -13,11 +13,11 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.identify.parameters import Parameter
-from statorhom.identify.priors import Carried, stage_space
-from statorhom.identify.stage_materials import DENSITY
-from statorhom.identify.stage_problem import MESH
-from statorhom.identify.stage_setup import StageSetup
+from statorhom.identify.fits.priors import Carried, stage_space
+from statorhom.identify.parameters.parameter_space import Parameter
+from statorhom.identify.residuals.stage_problem import MESH
+from statorhom.identify.stages.stage_materials import DENSITY
+from statorhom.identify.stages.stage_setup import StageSetup
 from statorhom.materials.typical_ranges import Z95
 from statorhom.study.study import StudyFiles
 from statorhom.study.supports import LineSupport

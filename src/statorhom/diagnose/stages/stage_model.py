@@ -18,8 +18,8 @@ from statorhom.diagnose.processes.memory import Memory
 from statorhom.diagnose.processes.side_by_side import workers
 from statorhom.diagnose.stages.supported_slopes import HeldShapes
 from statorhom.geometry.stator import StepGeometry
-from statorhom.identify.model_error import ModelError
-from statorhom.identify.stage_setup import StageSetup
+from statorhom.identify.residuals.model_error import ModelError
+from statorhom.identify.stages.stage_setup import StageSetup
 from statorhom.mesh.density import MeshDensity
 from statorhom.mesh.extrude import mesh_step
 from statorhom.model.affine import AffineModel, Materials, assemble

@@ -13,8 +13,8 @@ from statorhom.diagnose.stages.constants import Constants
 from statorhom.diagnose.stages.masses import stage_densities
 from statorhom.diagnose.stages.stage_model import StageModel
 from statorhom.geometry.tested_object import RingGeometry
-from statorhom.identify.stage_materials import DENSITY
-from statorhom.identify.stage_setup import StageSetup
+from statorhom.identify.stages.stage_materials import DENSITY
+from statorhom.identify.stages.stage_setup import StageSetup
 from statorhom.model.affine import Materials
 from statorhom.model.kept import Kept
 from statorhom.physics.action import Action

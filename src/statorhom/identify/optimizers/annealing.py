@@ -15,10 +15,10 @@ from types import FunctionType, SimpleNamespace
 import numpy as np
 from simanneal import Annealer
 
-from statorhom.identify.bounds import Array, Bounds
 from statorhom.identify.optimizers.base import Callback, Objective, OptimizerResult, Recorder, Seed
 from statorhom.identify.optimizers.proposal import Proposal
 from statorhom.identify.optimizers.temperature import end_temperature, sampled_rises, start_temperature
+from statorhom.identify.parameters.bounds import Array, Bounds
 
 
 @dataclass(frozen=True)

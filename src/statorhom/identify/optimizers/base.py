@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from statorhom.errors import IdentificationError
-from statorhom.identify.bounds import Array, Bounds, read_only
+from statorhom.identify.parameters.bounds import Array, Bounds, read_only
 
 Objective = Callable[[Array], float]
 Callback = Callable[[int, float], None]

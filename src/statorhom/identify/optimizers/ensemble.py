@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from statorhom.errors import IdentificationError
-from statorhom.identify.announce import Progress
-from statorhom.identify.bounds import Array, Bounds
 from statorhom.identify.optimizers.base import Objective, Optimizer, OptimizerResult
-from statorhom.identify.optimizers.workers import Tick, Workers
+from statorhom.identify.parameters.bounds import Array, Bounds
+from statorhom.identify.processes.announce import Progress
+from statorhom.identify.processes.workers import Tick, Workers
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from statorhom.identify.bounds import Array, Bounds
+from statorhom.identify.parameters.bounds import Array, Bounds
 
 # shares of moves: along one coordinate, along all, and heavy-tailed jumps that leave a basin
 SINGLE, ALL = 0.7, 0.2

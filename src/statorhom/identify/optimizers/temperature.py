@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from statorhom.identify.bounds import Array
 from statorhom.identify.optimizers.base import Recorder
 from statorhom.identify.optimizers.proposal import Proposal
+from statorhom.identify.parameters.bounds import Array
 
 SAMPLING_SHARE = 0.1
 FEWEST_SAMPLES, MOST_SAMPLES = 20, 100

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from statorhom.identify.bounds import Array, Bounds
 from statorhom.identify.optimizers.base import Callback, Objective, OptimizerResult, Recorder, Seed
 from statorhom.identify.optimizers.proposal import Proposal
 from statorhom.identify.optimizers.temperature import end_temperature, sampled_rises, start_temperature
+from statorhom.identify.parameters.bounds import Array, Bounds
 
 
 @dataclass(frozen=True)

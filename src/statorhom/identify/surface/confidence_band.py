@@ -8,7 +8,7 @@ import numpy as np
 from scipy.stats import t as student
 
 from statorhom.errors import IdentificationError
-from statorhom.identify.bounds import Array, read_only
+from statorhom.identify.parameters.bounds import Array, read_only
 
 LEAST_R2 = 0.98
 CONFIDENCE = 0.95

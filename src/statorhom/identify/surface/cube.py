@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from statorhom.identify.bounds import Array
-from statorhom.identify.parameters import ParameterSpace
+from statorhom.identify.parameters.bounds import Array
+from statorhom.identify.parameters.parameter_space import ParameterSpace
 from statorhom.materials.typical_ranges import Z95
 
 ON_FACE = 0.02  # of the cube's half edge: this close a point lies on its face

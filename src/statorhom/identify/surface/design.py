@@ -13,7 +13,7 @@ import numpy as np
 from scipy.stats import qmc
 
 from statorhom.errors import IdentificationError
-from statorhom.identify.bounds import Array
+from statorhom.identify.parameters.bounds import Array
 from statorhom.identify.surface.optional import optional
 
 MOST_POINTS = 4096  # of one design: beyond, nobody waits for the solves

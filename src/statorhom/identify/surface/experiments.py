@@ -9,10 +9,10 @@ from typing import Protocol
 import numpy as np
 
 from statorhom.errors import MaterialError
-from statorhom.identify.announce import Progress
-from statorhom.identify.bounds import Array
-from statorhom.identify.optimizers.workers import Tick, Workers
-from statorhom.identify.stage_materials import StageMaterials
+from statorhom.identify.parameters.bounds import Array
+from statorhom.identify.processes.announce import Progress
+from statorhom.identify.processes.workers import Tick, Workers
+from statorhom.identify.stages.stage_materials import StageMaterials
 from statorhom.identify.surface.cube import Cube
 from statorhom.model.affine import Materials
 from statorhom.model.convergence import ModeKey, mode_keys

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from statorhom.errors import IdentificationError
-from statorhom.identify.bounds import Array
+from statorhom.identify.parameters.bounds import Array
 from statorhom.identify.surface.design import MOST_POINTS, Design, latin_hypercube_of
 from statorhom.identify.surface.experiments import Experiments, Solved
 from statorhom.identify.surface.mode_surfaces import FitSurface, ModeSurfaces, fit_surfaces

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from statorhom.identify.bounds import Array
+from statorhom.identify.parameters.bounds import Array
 from statorhom.identify.surface.optional import optional
 from statorhom.identify.surface.polynomial import PolynomialSurface, fit_polynomial
 

@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from statorhom.errors import IdentificationError
-from statorhom.identify.bounds import Array
+from statorhom.identify.parameters.bounds import Array
 from statorhom.identify.surface.cube import Cube
 from statorhom.identify.surface.experiments import Solved
 from statorhom.model.convergence import ModeKey

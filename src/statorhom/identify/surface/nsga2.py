@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from statorhom.identify.bounds import Array, read_only
+from statorhom.identify.parameters.bounds import Array, read_only
 from statorhom.identify.surface.optional import optional
 
 POPULATION = 100

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.polynomial.legendre import legvander
 
 from statorhom.errors import IdentificationError
-from statorhom.identify.bounds import Array, read_only
+from statorhom.identify.parameters.bounds import Array, read_only
 
 HIGHEST_DEGREE = 6
 CROWDED = 0.8  # coefficients per point beyond which leaving one out says nothing

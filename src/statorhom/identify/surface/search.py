@@ -9,11 +9,11 @@ from functools import partial
 import numpy as np
 
 from statorhom.errors import IdentificationError
-from statorhom.identify.bounds import Array
-from statorhom.identify.model_error import ModelError
-from statorhom.identify.optima import distinct_optima
-from statorhom.identify.parameters import ParameterSpace
-from statorhom.identify.polish import polish
+from statorhom.identify.inference.optima import distinct_optima
+from statorhom.identify.inference.polish import polish
+from statorhom.identify.parameters.bounds import Array
+from statorhom.identify.parameters.parameter_space import ParameterSpace
+from statorhom.identify.residuals.model_error import ModelError
 from statorhom.identify.surface.design import DESIGNS, Design, latin_hypercube
 from statorhom.identify.surface.experiments import Experiments
 from statorhom.identify.surface.gate import Gated, check_smallest, gated_surfaces

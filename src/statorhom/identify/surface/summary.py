@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from statorhom.errors import IdentificationError
-from statorhom.identify.sensitivity import mode_name
+from statorhom.identify.residuals.sensitivity import mode_name
 from statorhom.identify.surface.confidence_band import CONFIDENCE, confidence_band
 from statorhom.identify.surface.search import SurfaceSearch
 from statorhom.model.convergence import ModeKey

@@ -8,9 +8,9 @@ from typing import cast
 
 import numpy as np
 
-from statorhom.identify.bounds import Array
-from statorhom.identify.problem import Problem
-from statorhom.identify.stage_problem import StageProblem
+from statorhom.identify.inference.problem import Problem
+from statorhom.identify.parameters.bounds import Array
+from statorhom.identify.residuals.stage_problem import StageProblem
 from statorhom.identify.surface.mode_surfaces import ModeSurfaces
 from statorhom.model.convergence import ModeKey
 from statorhom.model.reduced_stator import ReducedModes

@@ -1,0 +1,1 @@
+"""Reduced models that stand in for the mesh: over the prior, and around what a search found."""

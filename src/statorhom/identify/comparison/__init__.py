@@ -1,0 +1,1 @@
+"""Measured and simulated modes at the result, side by side: frequencies, shapes, MAC."""

@@ -1,0 +1,1 @@
+"""The fit of a step: its constants with their priors, search, correction by finer meshes, posterior."""

@@ -1,0 +1,1 @@
+"""Constants with priors, ties and limits, and the coordinates that optimizers move."""
