@@ -125,3 +125,19 @@ def test_children_of_a_killed_parent_end() -> None:
     )
     assert done.returncode == -9
     assert len(done.stdout.split()) <= 2
+
+
+@needs_fork
+def test_items_that_stay_here_are_done_by_this_process_first() -> None:
+    remembered = []
+
+    def remember(n: int) -> int:
+        remembered.append(n)
+        sum(k * k for k in range(200_000))
+        return os.getpid()
+
+    with processes(2):
+        pids = side_by_side(remember, range(8), here=[5, 6])
+        assert side_by_side(lambda n: n, [3, 1], here=[0, 1]) == [3, 1]
+    assert remembered[:2] == [5, 6] and pids[5] == pids[6] == os.getpid()
+    assert len(set(pids)) == 2

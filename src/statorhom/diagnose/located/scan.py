@@ -169,13 +169,18 @@ def _first_ones_first(
     meshes: Callable[[Place], int],
     hypothesis: AnyHypothesis,
 ) -> list[FloatArray | None]:
-    """Changes at all places; what all those of a candidate need is made by its first one, and remembered here."""
+    """Changes at all places; what all those of a candidate need is made by its first one, and remembered here.
+
+    Other meshes are made side by side; what belongs to this one stays with it, and so is made here meanwhile.
+    """
     first = {candidate.label: i for i, (candidate, _) in reversed(list(enumerate(places)))}.values()
-    prices = {i: meshes(places[i]) for i in first} if hypothesis.memories else {}
-    apart = sorted((i for i, price in prices.items() if price), key=lambda i: -prices[i])
-    dear = remembering(change, [places[i] for i in apart], hypothesis.memories, hypothesis.shared)
-    known = dict(zip(apart, dear, strict=True))
-    known |= {i: change(places[i]) for i in first if i not in known}
+    prices = {i: meshes(places[i]) if hypothesis.memories else 0 for i in first}
+    ordered = sorted(first, key=lambda i: -prices[i])
+    here = [place for place, i in enumerate(ordered) if not prices[i]]
+    begun = [places[i] for i in ordered]
+    known = dict(
+        zip(ordered, remembering(change, begun, hypothesis.memories, hypothesis.shared, here), strict=True)
+    )
     rest = [i for i in range(len(places)) if i not in known]
     known |= dict(zip(rest, side_by_side(change, [places[i] for i in rest], least=MANY), strict=True))
     return [known[i] for i in range(len(places))]

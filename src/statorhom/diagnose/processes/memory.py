@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from typing import Any, TypeVar
 
 from statorhom.diagnose.processes.side_by_side import side_by_side
@@ -39,12 +39,13 @@ def remembering(
     items: Sequence[_T],
     memories: Sequence[Memory],
     shared: Sequence[object] = (),
+    here: Collection[int] = (),
 ) -> list[_R]:
     """`[function(item) for item in items]` side by side; what the memories learn meanwhile stays in them.
 
     Parameters
     ----------
-    function, items, shared : as of `side_by_side`.
+    function, items, shared, here : as of `side_by_side`.
     memories : of what the function asks.
     """
 
@@ -54,7 +55,7 @@ def remembering(
         return result, [memory.beyond(marks) for memory, marks in zip(memories, before, strict=True)]
 
     results = []
-    for result, news in side_by_side(told, items, shared):
+    for result, news in side_by_side(told, items, shared, here=here):
         for memory, made in zip(memories, news, strict=True):
             memory.learn(made)
         results.append(result)

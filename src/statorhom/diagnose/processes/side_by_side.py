@@ -14,9 +14,10 @@ import os
 import pickle
 import sys
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
+from itertools import chain
 from multiprocessing.connection import Connection
 from typing import Any, Generic, TypeVar
 
@@ -45,7 +46,11 @@ def workers() -> int:
 
 
 def side_by_side(
-    function: Callable[[_T], _R], items: Sequence[_T], shared: Sequence[object] = (), least: int = 2
+    function: Callable[[_T], _R],
+    items: Sequence[_T],
+    shared: Sequence[object] = (),
+    least: int = 2,
+    here: Collection[int] = (),
 ) -> list[_R]:
     """`[function(item) for item in items]`; whoever is free takes the next one.
 
@@ -55,16 +60,18 @@ def side_by_side(
     items : worth a copy of what this process writes on meanwhile, some ten milliseconds per gigabyte at least.
     shared : objects that results may refer to; they come back as the same objects.
     least : number of items for which processes are begun.
+    here : places of items that this process does, before it takes others: what it remembers of them stays.
     """
-    count = min(_PROCESSES.get() if CAN_FORK else 1, len(items))
+    given = [i for i in range(len(items)) if i not in here]
+    count = min(_PROCESSES.get() if CAN_FORK else 1, len(items), len(given) + 1)
     if count < 2 or len(items) < least:
         return [function(item) for item in items]
     with processes(1):
-        queue = _Queue(len(items))
+        queue = _Queue(given)
         known = {id(one): one for one in shared}
         children = [_Child(function, items, queue, known) for _ in range(count - 1)]
         try:
-            found = {i: function(items[i]) for i in queue}
+            found = {i: function(items[i]) for i in chain(here, queue)}
             for child in children:
                 found |= child.results()
         finally:
@@ -74,21 +81,21 @@ def side_by_side(
 
 
 class _Queue:
-    """Numbers below a count, each given to one process."""
+    """Numbers in their order, each given to one process."""
 
-    def __init__(self, count: int) -> None:
-        self._count = count
+    def __init__(self, numbers: Sequence[int]) -> None:
+        self._numbers = numbers
         self.owner = os.getpid()
         self._next = FORK.Value("l", 0)
 
     def __iter__(self) -> Iterator[int]:
         while True:
             with self._next.get_lock():
-                number = self._next.value
+                place = self._next.value
                 self._next.value += 1
-            if number >= self._count:
+            if place >= len(self._numbers):
                 return
-            yield number
+            yield self._numbers[place]
 
 
 class _Child(Generic[_T, _R]):
