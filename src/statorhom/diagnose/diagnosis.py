@@ -12,6 +12,7 @@ from threadpoolctl import threadpool_limits
 
 from statorhom.diagnose.coupons.body_approach import BODY
 from statorhom.diagnose.evidence.decision import (
+    AS_IT_SHOULD,
     NEAR_RIVAL,
     Evidence,
     Verdict,
@@ -138,7 +139,7 @@ def _find(
     leading = leading_effects(approach, base, candidates, counts, settings.seed)
     found, confirmed = list(leading.found), True
     if leading.misfit_is_real:
-        if found:
+        if found and _is_open_to_pairs(leading):
             found, confirmed = _with_pairs(approach, leading, counts, settings.seed)
         found = without_gross_rows(leading.base.free, found, counts)
     progress(1)
@@ -168,6 +169,15 @@ def _with_pairs(
         found = approach.refined(found, leading.base.valleys, counts)
     pairs, confirmed = confirmed_pairs(leading, found[0], counts, seed)
     return _instead(found, pairs), confirmed
+
+
+def _is_open_to_pairs(leading: Leading) -> bool:
+    """Whether a second effect, or a model of its own, may lead by as much as is asked for.
+
+    Beside a declared model that misses nothing by more than chance, what does not lead at all does not.
+    """
+    none = nothing(leading.base.refit)
+    return none.adequacy <= AS_IT_SHOULD or leading.found[0].log_evidence > none.log_evidence
 
 
 def _stands_alone(found: Sequence[Explanation]) -> bool:

@@ -76,7 +76,7 @@ class Evidence:
     @property
     def least_over_nothing(self) -> float:
         """Log evidence that is asked for."""
-        return OVER_ADEQUATE if self.nothing_adequacy > AS_IT_SHOULD else OVER_NOTHING
+        return least_over_nothing(self.nothing_adequacy)
 
     @property
     def predicts(self) -> bool:
@@ -138,6 +138,11 @@ class Evidence:
         """Whether rule 3 has too few modes that show anything: they cannot contradict, nor can they confirm."""
         few = self.held_out is None or too_few(self.held_out)
         return few and bool(np.isfinite(self.over_others))
+
+
+def least_over_nothing(adequacy: float) -> float:
+    """Log evidence over "nothing" that is asked of a name; `adequacy` is the declared model's."""
+    return OVER_ADEQUATE if adequacy > AS_IT_SHOULD else OVER_NOTHING
 
 
 def too_few(unseen: HeldOut) -> bool:

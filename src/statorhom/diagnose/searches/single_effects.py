@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from statorhom.diagnose.evidence.decision import OVER_OTHERS, least_over_nothing
 from statorhom.diagnose.fits.explanations import (
     ADEQUATE,
     WELL,
@@ -111,6 +112,8 @@ def _limit(base: Refit, trial: Trial, explanations: Sequence[Explanation], limit
     limited = dear if is_poor(base) else placed
     # what costs little may explain the one row too that another leaves: that one is no limit to it
     bar = _worth(explanations) if dear or placed else _worth(explanations, whole=True)
+    if np.isfinite(bar):
+        bar = min(bar, _least_of_a_rival(base))
     worth = min(bar, limit if limited else np.inf)
     if gain < WORTH and np.isfinite(worth):
         return None  # it promises nothing, and nothing is left to explain
@@ -150,6 +153,12 @@ def _worth(explanations: Sequence[Explanation], *, whole: bool = False) -> float
     chances = [e.adequacy if whole else e.adequacy_but_one for e in explanations]
     pairs = zip(explanations, chances, strict=True)
     return min((e.refit.objective for e, p in pairs if p > ADEQUATE), default=np.inf) + NEAR
+
+
+def _least_of_a_rival(base: Refit) -> float:
+    """Objective above which an explanation is no rival even of what leads by as little as is asked for."""
+    least = least_over_nothing(nothing(base).adequacy)
+    return base.objective - 2 * (least - OVER_OTHERS)
 
 
 def _leading(base: Refit, explanations: Sequence[Explanation]) -> float:
