@@ -25,7 +25,8 @@ TRIALS, STARTS, SHARPENED = 200, 16, 3
 # how many are refitted while all of them miss frequencies by more than a part of what wide valleys forgive
 MOST, FITTING = 48, 0.25
 MANY = 24  # points that are worth a process
-APART = 1.0  # prior standard deviations between starts
+# prior standard deviations between starts, and between optima: of two in one wide valley a narrow one may be right
+APART, DIFFERENT = 1.0, 0.5
 FAR_BEHIND = 20.0  # of the objective in wide valleys: what stays so far behind is no other optimum
 VAGUE = 1.0  # prior standard deviations of a logarithm from which on a constant may be far on either side
 ASIDE = 1.5  # prior standard deviations to either side where such a constant is tried
@@ -166,7 +167,7 @@ def different(
     """Optima that are no neighbours of better ones, the best first; `where` tells the coordinates that count."""
     chosen: list[Refit[_H]] = []
     for r in sorted(found, key=lambda r: r.objective):
-        if all(np.linalg.norm(where(r) - where(other)) > APART for other in chosen):
+        if all(np.linalg.norm(where(r) - where(other)) > DIFFERENT for other in chosen):
             chosen.append(r)
     return chosen
 
