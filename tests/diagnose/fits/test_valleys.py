@@ -62,3 +62,12 @@ def test_a_deeper_valley_on_another_side_of_a_vague_constant_is_found(
     # a ratio and what is known are left where they are
     assert [np.flatnonzero(z).tolist() for z in starts] == [[0], [0], [1], [1]]
     assert with_other_sides(blank, found, [0]) == found
+
+
+def test_of_two_optima_in_one_wide_valley_both_are_kept() -> None:
+    """Of a soft end winding: a third of the stiffness on three times the modulus leaves as much in wide valleys."""
+    found: Any = [
+        SimpleNamespace(z=np.array(z), objective=objective)
+        for z, objective in (([0.0, 0.0], 15.9), ([0.55, 0.4], 15.2), ([0.56, 0.41], 15.3), ([3.0, 0.0], 40.0))
+    ]
+    assert [r.objective for r in module.different(found)] == [15.2, 15.9, 40.0]
