@@ -68,6 +68,11 @@ def test_of_two_optima_in_one_wide_valley_both_are_kept() -> None:
     """Of a soft end winding: a third of the stiffness on three times the modulus leaves as much in wide valleys."""
     found: Any = [
         SimpleNamespace(z=np.array(z), objective=objective)
-        for z, objective in (([0.0, 0.0], 15.9), ([0.55, 0.4], 15.2), ([0.56, 0.41], 15.3), ([3.0, 0.0], 40.0))
+        for z, objective in (
+            ([0.0, 0.0], 15.9),
+            ([0.55, 0.4], 15.2),
+            ([0.56, 0.41], 15.3),
+            ([3.0, 0.0], 40.0),
+        )
     ]
     assert [r.objective for r in module.different(found)] == [15.2, 15.9, 40.0]

@@ -10,6 +10,7 @@ import pytest
 
 from statorhom.diagnose.fits.explanations import ADEQUATE
 from statorhom.diagnose.searches import beside_typical as module
+from statorhom.diagnose.searches import refit_starts as starts_module
 from statorhom.diagnose.searches import single_effects as effects
 from statorhom.diagnose.searches import typical_materials as typical
 from statorhom.diagnose.searches.refit_starts import CHEAP, DEAR
@@ -59,7 +60,7 @@ class Search:
         monkeypatch.setattr(typical, "evaluated", lambda h, z: SimpleNamespace(hypothesis=h, z=z))
         monkeypatch.setattr(module, "scan_starts", lambda *_: [np.zeros(1)])
         monkeypatch.setattr(module, "start_of", self.start)
-        monkeypatch.setattr(module, "price", lambda trial: self.prices.get(trial[1][0].label, CHEAP))
+        monkeypatch.setattr(starts_module, "price", lambda trial: self.prices.get(trial[1][0].label, CHEAP))
         monkeypatch.setattr(effects, "narrowed_starts", lambda start: [start])
         monkeypatch.setattr(module, "shared_by", lambda _: [])
         monkeypatch.setattr(effects, "refitted", lambda h, _: None if h.label == "lost" else self.refit(h))

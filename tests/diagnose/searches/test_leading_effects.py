@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from statorhom.diagnose.searches import declared_again as again
@@ -36,6 +37,7 @@ def led(
     *steps: tuple[Any, list[Any]],
     again: Sequence[Any] = (),
     typical: Callable[..., list[Any]] = lambda *_: [],
+    thorough: Callable[..., list[Any]] = lambda *_: [],
 ) -> Any:
     """What leads where the declared model is first one, then another; `again`: refits of one candidate there."""
     bases = [b for b, _ in steps]
@@ -53,6 +55,7 @@ def led(
         leading, "refits", lambda _, trials, __: [e for e in again if (9.0, e.label) in trials]
     )
     monkeypatch.setattr(leading, "beside_typical_materials", typical)
+    monkeypatch.setattr(leading, "sought_thoroughly", thorough)
     monkeypatch.setattr(leading, "in_other_valleys", lambda _, found, __: found)
     monkeypatch.setattr(leading, "with_repeated_null", lambda _, found, __: found)
     monkeypatch.setattr(leading, "single_effects", lambda fit, *_: next(e for b, e in steps if b.free is fit))
@@ -193,3 +196,16 @@ def test_where_the_misfit_is_chance_nothing_is_sharpened(
     lump.candidates[0].parameters = (1,)
     now: Any = leading.Leading(base(-700.0), SimpleNamespace(p_value=p_value), unpaired, (lump,))  # type: ignore[arg-type]
     assert now.by_chance(lump) is by_chance
+
+
+def test_what_a_thorough_search_leads_to_is_judged_by_its_evidence(monkeypatch: pytest.MonkeyPatch) -> None:
+    soft, lump = explanation("soft", -13.0, 0.9), explanation("lump", -33.0)
+    declared = base(-60.0)
+
+    def thorough(fit: Any, found: Any, *_: Any) -> list[Any]:
+        assert fit is declared.free and list(found) == [lump]
+        return [soft]
+
+    found = led(monkeypatch, 0.5, (declared, [lump]), thorough=thorough)
+    assert found.found == (soft, lump)
+    assert found.chance(soft) == pytest.approx(np.exp(-47.0))

@@ -50,8 +50,13 @@ def test_near_an_optimum_what_has_a_place_is_given_up(monkeypatch: pytest.Monkey
     assert worths(monkeypatch, 60.0, CHEAP, MIDDLING, place="somewhere") == [LIMIT, LIMIT]
 
 
+@pytest.mark.parametrize(
+    ("objective", "adequacy", "most"),
+    # far off; near, where a name has to lead by 5 and rivals it by 3; and adequate, where it has to lead by 8
+    [(1e3, 0.0, 1e3), (70.0, 0.0, 66.0), (70.0, 0.5, 60.0)],
+)
 def test_a_few_know_of_the_same_others_whatever_the_number_of_processes(
-    monkeypatch: pytest.MonkeyPatch,
+    monkeypatch: pytest.MonkeyPatch, objective: float, adequacy: float, most: float
 ) -> None:
     found = {"first": 50.0, "second": 20.0, "third": 30.0, "fourth": 9.0, "fifth": 9.0, "sixth": 9.0}
     seen: dict[str, float] = {}
@@ -65,11 +70,14 @@ def test_a_few_know_of_the_same_others_whatever_the_number_of_processes(
     monkeypatch.setattr(module, "_best_refit", best_refit)
     monkeypatch.setattr(module, "shared_by", lambda _: [])
     monkeypatch.setattr(module, "explained", lambda best, _: Chances(best, 0.5, 0.5))
-    base: Any = SimpleNamespace(misfit=1e3, objective=1e3, jacobian=np.zeros((30, 1)))
+    monkeypatch.setattr(module, "nothing", lambda _: SimpleNamespace(adequacy=adequacy))
+    base: Any = SimpleNamespace(misfit=objective, objective=objective, jacobian=np.zeros((30, 1)))
     trials: Any = [(50.0, [name]) for name in found]
     assert [e.refit.objective for e in refits(base, trials, {})] == list(found.values())
     # the first stands alone: it tells whether others are rivals
-    assert [worth - NEAR for worth in seen.values()] == [np.inf, 50.0, 50.0, 50.0, 50.0, 9.0]
+    first, *others = seen.values()
+    assert first == np.inf
+    assert others == [min(best + NEAR, most) for best in (50.0, 50.0, 50.0, 50.0, 9.0)]
 
 
 def test_of_a_poor_model_cheap_effects_are_followed_through_other_valleys(

@@ -15,7 +15,7 @@ from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.located.scan import starts as scan_starts
 from statorhom.diagnose.processes.side_by_side import side_by_side
-from statorhom.diagnose.searches.refit_starts import CHEAP, Start, last_action, price, shared_by, start_of
+from statorhom.diagnose.searches.refit_starts import Start, costs_little, shared_by, start_of
 from statorhom.diagnose.searches.sharper import sharpened
 from statorhom.diagnose.searches.single_effects import MOSTLY, optima_elsewhere
 from statorhom.diagnose.searches.typical_materials import with_typical_materials
@@ -56,17 +56,11 @@ def _starts(base: Refit, stage: str, candidates: Sequence[Candidate]) -> list[St
     """A step's effects that cost little, in the model of its typical materials."""
     own = [c for c in candidates if c.stage == stage and c.parameters]
     begun = [start_of(base, c, scan_starts(base.hypothesis.study, c)[0]) for c in own]
-    cheap = [c for c, start in zip(own, begun, strict=True) if _costs_little(start)]
+    cheap = [c for c, start in zip(own, begun, strict=True) if costs_little(start)]
     typical = with_typical_materials(base, stage) if cheap else None
     if typical is None:
         return []
     return [start_of(typical, c, scan_starts(typical.hypothesis.study, c)[0]) for c in cheap]
-
-
-def _costs_little(start: Start) -> bool:
-    """Whether neither a solution nor a mesh nor a support belongs to each of its magnitudes."""
-    action = last_action(start)
-    return price((0.0, [start])) == CHEAP and not action.dimensions and not action.supports
 
 
 def _best_anywhere(start: Start) -> Refit | None:

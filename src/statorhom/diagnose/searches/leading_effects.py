@@ -20,6 +20,7 @@ from statorhom.diagnose.searches.lost_contact import with_lost_contact
 from statorhom.diagnose.searches.other_valleys import in_other_valleys
 from statorhom.diagnose.searches.refit_starts import starts_of
 from statorhom.diagnose.searches.single_effects import new_names, refits, single_effects
+from statorhom.diagnose.searches.thorough import sought_thoroughly
 from statorhom.physics.candidate import Candidate
 
 AGAIN = 2  # times that the declared model is sought where explanations lead
@@ -86,6 +87,7 @@ def leading_effects(
             break
         only = leading.found[0].label if _explains(leading.found[0], deeper) else None
         leading = _joined(leading, _beside(deeper, candidates, counts, seed, only=only))
+    leading = _with_more(leading, sought_thoroughly(leading.base.free, leading.found, candidates, counts))
     # what no signature beside the declared winding shows
     return _with_more(leading, with_lost_contact(leading.base.free, leading.found, candidates, counts))
 

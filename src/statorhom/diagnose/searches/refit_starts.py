@@ -155,6 +155,12 @@ def price(trial: Trial) -> int:
     return CHEAP if action.changes is None else MIDDLING
 
 
+def costs_little(start: Start) -> bool:
+    """Whether neither a solution nor a mesh nor a support belongs to each of the candidate's magnitudes."""
+    action = last_action(start)
+    return price((0.0, [start])) == CHEAP and not action.dimensions and not action.supports
+
+
 def _promising(without: float, trials: Sequence[Trial]) -> list[Trial]:
     """Those that wide valleys like, the best first: the first few, and what gains a part of what the best one does.
 

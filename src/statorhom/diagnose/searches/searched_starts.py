@@ -17,7 +17,9 @@ REFITTED = 6  # points that are followed in wide valleys
 SUPPORTS = 8  # that are tried, each with many materials
 
 
-def searched_starts(hypothesis: Hypothesis, z: np.ndarray, seed: int = 0) -> list[Refit[Hypothesis]]:
+def searched_starts(
+    hypothesis: Hypothesis, z: np.ndarray, seed: int = 0, most: int = REFITTED
+) -> list[Refit[Hypothesis]]:
     """Different optima in wide valleys, the best first; none where the effect's step has no constants to be found.
 
     Parameters
@@ -26,6 +28,7 @@ def searched_starts(hypothesis: Hypothesis, z: np.ndarray, seed: int = 0) -> lis
     z : all coordinates; the constants of other steps and what the effect is added to stay there until an optimum is
         sought.
     seed : of the points.
+    most : of them that are followed.
     """
     candidate = hypothesis.candidates[-1]
     constants = hypothesis.study.constants
@@ -39,7 +42,7 @@ def searched_starts(hypothesis: Hypothesis, z: np.ndarray, seed: int = 0) -> lis
         points = _with_few_supports(points, len(constants))
     try:
         quick = replace(hypothesis, trained=False)
-        return wide_optima(quick, [np.clip(point, low, high) for point in points], REFITTED)
+        return wide_optima(quick, [np.clip(point, low, high) for point in points], most)
     except IdentificationError:
         return []
 
