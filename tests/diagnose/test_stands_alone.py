@@ -60,3 +60,18 @@ def test_where_rivals_are_near_hidden_materials_come_first(done: list[str]) -> N
         "hidden behind -240",
         "refined",
     ]
+
+
+@pytest.mark.parametrize(
+    ("adequacy", "lead", "is_open"),
+    # nothing is missed by more than chance, and no effect leads; one leads by little; and something is missed
+    [(0.96, -1.4, False), (0.96, 0.5, True), (0.01, -1.4, True)],
+)
+def test_beside_an_adequate_model_pairs_need_a_lead(
+    monkeypatch: pytest.MonkeyPatch, adequacy: float, lead: float, is_open: bool
+) -> None:
+    monkeypatch.setattr(module, "nothing", lambda _: SimpleNamespace(adequacy=adequacy, log_evidence=-40.0))
+    leading: Any = SimpleNamespace(
+        base=SimpleNamespace(refit=None), found=(SimpleNamespace(log_evidence=-40.0 + lead),)
+    )
+    assert module._is_open_to_pairs(leading) is is_open
