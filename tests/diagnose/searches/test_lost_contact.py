@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose.searches import lost_contact as module
+from statorhom.diagnose.searches import refit_starts as starts_module
 from statorhom.diagnose.searches import typical_materials as typical
 from statorhom.diagnose.searches.arc_search import TRAINED
 from statorhom.diagnose.searches.lost_contact import ROUNDS, with_lost_contact
@@ -49,8 +50,8 @@ class Search:
         monkeypatch.setattr(typical, "in_its_own_model", self.model)
         monkeypatch.setattr(module, "evaluated", lambda h, z: SimpleNamespace(hypothesis=h, z=z))
         monkeypatch.setattr(module, "in_its_own_model", self.model)
-        monkeypatch.setattr(module, "scan_starts", lambda *_: [np.zeros(4)])
-        monkeypatch.setattr(module, "start_of", lambda r, _, z: Start(r.hypothesis, np.r_[r.z, z]))
+        monkeypatch.setattr(starts_module, "scan_starts", lambda *_: [np.zeros(4)])
+        monkeypatch.setattr(starts_module, "start_of", lambda r, _, z: Start(r.hypothesis, np.r_[r.z, z]))
         monkeypatch.setattr(module, "arc_beside_any_winding", self.search)
         # what few vectors lead to is refitted in all
         monkeypatch.setattr(module, "varied", lambda _, winding: [*winding, 4, 5])

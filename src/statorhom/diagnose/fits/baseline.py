@@ -11,7 +11,14 @@ from statorhom.diagnose.features.mode_features import SCATTER_SD
 from statorhom.diagnose.fits.explanations import NARROWING, in_valleys, nothing, widened
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit, evaluated, refit
-from statorhom.diagnose.fits.valleys import FAR_BEHIND, MOST, trials_around, wide_optima, with_other_sides
+from statorhom.diagnose.fits.valleys import (
+    ALIKE,
+    FAR_BEHIND,
+    MOST,
+    trials_around,
+    wide_optima,
+    with_other_sides,
+)
 from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.diagnose.predicted.prediction import acted_materials, with_rules
 from statorhom.diagnose.stages.constants import held_by_lines, new_constants, study_constants
@@ -31,7 +38,6 @@ SNAPSHOTS = 6  # materials that are solved per step
 SAME_HZ = 2e-4  # relative: a basis is good enough when a snapshot moves no frequency by more
 ROUNDS = 3
 FOLLOWED = 3  # valleys
-ALIKE = 5.0  # of the objective in wide valleys, between which there is nothing to choose
 CONVINCING = 0.1  # chance of a misfit above which no other valley is followed
 MAX_SCATTER_ORDER = 8
 

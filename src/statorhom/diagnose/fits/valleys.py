@@ -27,6 +27,7 @@ MOST, FITTING = 48, 0.25
 MANY = 24  # points that are worth a process
 # prior standard deviations between starts, and between optima: of two in one wide valley a narrow one may be right
 APART, DIFFERENT = 1.0, 0.5
+ALIKE = 5.0  # of the objective in wide valleys, between which there is nothing to choose
 FAR_BEHIND = 20.0  # of the objective in wide valleys: what stays so far behind is no other optimum
 VAGUE = 1.0  # prior standard deviations of a logarithm from which on a constant may be far on either side
 ASIDE = 1.5  # prior standard deviations to either side where such a constant is tried

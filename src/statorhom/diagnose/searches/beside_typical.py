@@ -13,9 +13,8 @@ from functools import partial
 from statorhom.diagnose.fits.explanations import ADEQUATE, Explanation, explained, nothing
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit
-from statorhom.diagnose.located.scan import starts as scan_starts
 from statorhom.diagnose.processes.side_by_side import side_by_side
-from statorhom.diagnose.searches.refit_starts import Start, costs_little, shared_by, start_of
+from statorhom.diagnose.searches.refit_starts import Start, cheap_starts, first_start, shared_by
 from statorhom.diagnose.searches.sharper import sharpened
 from statorhom.diagnose.searches.single_effects import MOSTLY, optima_elsewhere
 from statorhom.diagnose.searches.typical_materials import with_typical_materials
@@ -54,13 +53,11 @@ def beside_typical_materials(
 
 def _starts(base: Refit, stage: str, candidates: Sequence[Candidate]) -> list[Start]:
     """A step's effects that cost little, in the model of its typical materials."""
-    own = [c for c in candidates if c.stage == stage and c.parameters]
-    begun = [start_of(base, c, scan_starts(base.hypothesis.study, c)[0]) for c in own]
-    cheap = [c for c, start in zip(own, begun, strict=True) if costs_little(start)]
+    cheap = cheap_starts(base, [c for c in candidates if c.stage == stage])
     typical = with_typical_materials(base, stage) if cheap else None
     if typical is None:
         return []
-    return [start_of(typical, c, scan_starts(typical.hypothesis.study, c)[0]) for c in cheap]
+    return [first_start(typical, start.hypothesis.candidates[-1]) for start in cheap]
 
 
 def _best_anywhere(start: Start) -> Refit | None:

@@ -21,7 +21,6 @@ from statorhom.diagnose.fits.explanations import (
 )
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit, evaluated
-from statorhom.diagnose.located.scan import starts as scan_starts
 from statorhom.diagnose.searches.arc_search import (
     RANGES,
     TRAINED,
@@ -29,7 +28,7 @@ from statorhom.diagnose.searches.arc_search import (
     followed_near,
     varied,
 )
-from statorhom.diagnose.searches.refit_starts import start_of
+from statorhom.diagnose.searches.refit_starts import first_start
 from statorhom.diagnose.searches.sharper import in_its_own_model
 from statorhom.diagnose.searches.typical_materials import with_typical_materials
 from statorhom.diagnose.stages.constants import new_constants
@@ -83,7 +82,7 @@ def _sought(base: Refit, candidate: Candidate, worth: float) -> Refit | None:
     typical = with_typical_materials(base, candidate.stage, quick=True, arcs=TRAINED)
     if typical is None:
         return None
-    start = start_of(typical, candidate, scan_starts(typical.hypothesis.study, candidate)[0])
+    start = first_start(typical, candidate)
     winding = new_constants(base.hypothesis.study.constants, candidate.stage)
     z = arc_beside_any_winding(start, winding, worth)
     try:

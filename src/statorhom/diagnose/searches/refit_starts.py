@@ -155,12 +155,6 @@ def price(trial: Trial) -> int:
     return CHEAP if action.changes is None else MIDDLING
 
 
-def costs_little(start: Start) -> bool:
-    """Whether neither a solution nor a mesh nor a support belongs to each of the candidate's magnitudes."""
-    action = last_action(start)
-    return price((0.0, [start])) == CHEAP and not action.dimensions and not action.supports
-
-
 def _promising(without: float, trials: Sequence[Trial]) -> list[Trial]:
     """Those that wide valleys like, the best first: the first few, and what gains a part of what the best one does.
 
@@ -240,6 +234,21 @@ def start_of(base: Refit, candidate: Candidate, start: np.ndarray) -> Start:
     hypothesis = blank(base.hypothesis, (*base.hypothesis.candidates, candidate))
     whole = not any(p.last for p in candidate.parameters)
     return Start(replace(hypothesis, whole=whole), np.r_[base.z, start])
+
+
+def cheap_starts(base: Refit, candidates: Sequence[Candidate]) -> list[Start]:
+    """The first start of every candidate to whose magnitudes neither solutions nor meshes nor supports belong."""
+    return [start for c in candidates if c.parameters and _costs_little(start := first_start(base, c))]
+
+
+def first_start(base: Refit, candidate: Candidate) -> Start:
+    """The first one that the scan would look at."""
+    return start_of(base, candidate, scan_starts(base.hypothesis.study, candidate)[0])
+
+
+def _costs_little(start: Start) -> bool:
+    action = last_action(start)
+    return price((0.0, [start])) == CHEAP and not action.dimensions and not action.supports
 
 
 def searched(start: Start) -> list[Start]:

@@ -20,15 +20,14 @@ from statorhom.diagnose.fits.explanations import (
 )
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit
-from statorhom.diagnose.located.scan import starts as scan_starts
+from statorhom.diagnose.fits.valleys import ALIKE
 from statorhom.diagnose.processes.side_by_side import side_by_side
-from statorhom.diagnose.searches.refit_starts import Start, costs_little, shared_by, start_of
+from statorhom.diagnose.searches.refit_starts import Start, cheap_starts, shared_by
 from statorhom.diagnose.searches.searched_starts import searched_starts
 from statorhom.physics.candidate import Candidate
 
 SEED = 1  # other points than those that were tried
 REFITTED = 24  # of them that are followed in wide valleys
-ALIKE = 5.0  # of the objective there, between which there is nothing to choose
 NARROWED = 4  # that are followed into narrower ones
 
 
@@ -50,9 +49,7 @@ def sought_thoroughly(
     if settled or not isinstance(base.hypothesis, Hypothesis):
         return []
     later = {stage.name for stage in base.hypothesis.study.stages[1:]}
-    own = [c for c in candidates if c.stage in later and c.parameters]
-    begun = [start_of(base, c, scan_starts(base.hypothesis.study, c)[0]) for c in own]
-    begun = [start for start in begun if costs_little(start)]
+    begun = cheap_starts(base, [c for c in candidates if c.stage in later])
     again = side_by_side(_best_of_many, begun, shared_by(begun))
     better = [explained(r, counts) for r in again if r is not None]
     return [e for e in better if e.log_evidence > best.log_evidence]
