@@ -13,7 +13,7 @@ from statorhom.diagnose.fits import valleys as valleys_of
 from statorhom.diagnose.fits.explanations import NARROWING
 from statorhom.diagnose.fits.valleys import FAR_BEHIND
 from statorhom.diagnose.searches import arc_search as module
-from statorhom.diagnose.searches.arc_search import FOLLOWED, MODELS, RANGES, TRIALS, arc_beside_any_winding
+from statorhom.diagnose.searches.arc_search import ANYWHERE, NEARBY, best_arc
 from statorhom.diagnose.searches.refit_starts import Start
 from statorhom.errors import SolverError
 from statorhom.physics.candidate import Candidate
@@ -109,7 +109,7 @@ def start() -> Start:
 
 
 def test_the_best_winding_and_arc_of_all_that_are_tried_is_found(search: Search) -> None:
-    z = arc_beside_any_winding(start(), WINDING, 100.0)
+    z = best_arc(start(), WINDING, 100.0)
     assert z is not None
     found = effect(z)
     # the stack stays where it was; the arc is turned to its best place
@@ -117,16 +117,17 @@ def test_the_best_winding_and_arc_of_all_that_are_tried_is_found(search: Search)
     assert found["angle_rad"] == pytest.approx(PLACE, abs=np.pi / module.PLACES)
     assert search.objective(Hypothesis(), z) < 0.5
     # fewer and fewer are followed as the valleys narrow, the last ones once more from the best places of their arcs
+    most, fewer, fewest = ANYWHERE.followed
     counts = [len(search.followed[discrepancy]) for discrepancy in (*NARROWING, 0.0)]
-    assert counts == [FOLLOWED[0], FOLLOWED[1], 2 * FOLLOWED[2]]
+    assert counts == [most, fewer, 2 * fewest]
     # once in the model of what few vectors lead to, once in that of what this one does
-    assert len(search.judged) in (2, 2 * MODELS)
+    assert len(search.judged) in (2, 2 * ANYWHERE.models)
 
 
 @pytest.mark.usefixtures("search")
 def test_points_lie_all_over_windings_and_arcs() -> None:
-    points = module._points(start(), WINDING, TRIALS, 0)
-    for name, (low, high) in RANGES.items():
+    points = module._points(start(), WINDING, ANYWHERE, ANYWHERE.trials, 0)
+    for name, (low, high) in {"arc_deg": ANYWHERE.widths_deg, "contact_ratio": ANYWHERE.ratios}.items():
         values = [effect(z)[name] for z in points]
         assert low <= min(values) < 1.1 * low and 0.9 * high < max(values) <= high
     spread = np.array(points)[:, list(WINDING)]
@@ -134,8 +135,27 @@ def test_points_lie_all_over_windings_and_arcs() -> None:
 
 
 @pytest.mark.usefixtures("search")
+def test_points_nearby_have_a_winding_like_the_first_and_narrower_arcs() -> None:
+    begun = start()
+    points = module._points(begun, WINDING, NEARBY, NEARBY.trials, 0)
+    aside = np.array(points)[:, list(WINDING)] - begun.z[list(WINDING)]
+    assert NEARBY.aside is not None
+    assert 0.9 * NEARBY.aside < np.abs(aside).max() <= NEARBY.aside
+    widths = [effect(z)["arc_deg"] for z in points]
+    assert min(widths) < ANYWHERE.widths_deg[0] and max(widths) < 1.01 * NEARBY.widths_deg[1]
+
+
+def test_the_best_of_what_is_nearby_gets_no_model_before_the_next(search: Search) -> None:
+    begun = start()
+    begun.z[list(WINDING)] = 0.4, -0.8
+    z = best_arc(begun, WINDING, 100.0, NEARBY)
+    assert z is not None and search.objective(Hypothesis(), z) < 0.5
+    assert search.judged == []
+
+
+@pytest.mark.usefixtures("search")
 def test_the_same_points_give_the_same_answer() -> None:
-    first, second = (arc_beside_any_winding(start(), WINDING, 100.0) for _ in range(2))
+    first, second = (best_arc(start(), WINDING, 100.0) for _ in range(2))
     assert first is not None and np.array_equal(first, second)  # type: ignore[arg-type]
 
 
@@ -166,9 +186,9 @@ def test_of_both_ways_into_a_model_of_its_own_the_better_one_counts(
 @pytest.mark.usefixtures("search")
 def test_where_no_winding_can_be_followed_nothing_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "in_valleys", lambda *_, **__: None)
-    assert arc_beside_any_winding(start(), WINDING, 100.0) is None
+    assert best_arc(start(), WINDING, 100.0) is None
 
 
 def test_an_arc_that_explains_no_more_than_is_explained_without_gets_no_model(search: Search) -> None:
-    assert arc_beside_any_winding(start(), WINDING, -FAR_BEHIND) is None
+    assert best_arc(start(), WINDING, -FAR_BEHIND) is None
     assert search.judged == []

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
+from statorhom.diagnose.evidence.decision import NEAR_RIVAL
 from statorhom.diagnose.searches import lost_contact as module
 from statorhom.diagnose.searches import refit_starts as starts_module
 from statorhom.diagnose.searches import typical_materials as typical
-from statorhom.diagnose.searches.arc_search import TRAINED
-from statorhom.diagnose.searches.lost_contact import ROUNDS, with_lost_contact
+from statorhom.diagnose.searches.arc_search import ANYWHERE, NEARBY, TRAINED, Reach
+from statorhom.diagnose.searches.lost_contact import NARROW, ROUNDS, with_lost_contact
 from statorhom.diagnose.searches.refit_starts import Start
 from statorhom.errors import SolverError
 from statorhom.physics.candidate import Candidate
@@ -22,6 +24,7 @@ from statorhom.physics.parameter import angle
 
 ARCS = Candidate("interface_debond", "wound", (ARC, RATIO, LOSS, angle()), "winding")
 LUMP = Candidate("attached_mass", "wound", (), "lamination")
+PLACED = Candidate("attached_mass", "wound", (angle(),), "lamination")
 # of a stack, and of the winding
 NAMES = ("stack:lamination.E_p_pa", "wound:winding.E_p_pa", "wound:winding.G_rz_pa", "wound:winding.nu_p")
 FOUND = np.array([0.4, 1.0, 1.2, 0.0, 0.1, 0.2, 0.3, 2.0])
@@ -48,15 +51,22 @@ class Search:
         monkeypatch.setattr(typical, "blank", lambda h, _: h)
         monkeypatch.setattr(typical, "evaluated", lambda h, z: SimpleNamespace(hypothesis=h, z=z))
         monkeypatch.setattr(typical, "in_its_own_model", self.model)
+        # the base with what leads' constants, and an arc's start in another model
+        monkeypatch.setattr(module, "replace", lambda of, **new: of.__class__(**{**vars(of), **new}))
         monkeypatch.setattr(module, "evaluated", lambda h, z: SimpleNamespace(hypothesis=h, z=z))
         monkeypatch.setattr(module, "in_its_own_model", self.model)
         monkeypatch.setattr(starts_module, "scan_starts", lambda *_: [np.zeros(4)])
-        monkeypatch.setattr(starts_module, "start_of", lambda r, _, z: Start(r.hypothesis, np.r_[r.z, z]))
-        monkeypatch.setattr(module, "arc_beside_any_winding", self.search)
+        monkeypatch.setattr(starts_module, "start_of", self.start)
+        monkeypatch.setattr(module, "best_arc", self.search)
         # what few vectors lead to is refitted in all
         monkeypatch.setattr(module, "varied", lambda _, winding: [*winding, 4, 5])
         monkeypatch.setattr(module, "followed_near", self.near)
         monkeypatch.setattr(module, "refitted", self.refit)
+
+    @staticmethod
+    def start(base: Any, candidate: Candidate, z: np.ndarray) -> Start:
+        hypothesis: Any = SimpleNamespace(study=base.hypothesis.study, candidates=(candidate,))
+        return Start(hypothesis, np.r_[base.z, z])
 
     @staticmethod
     def explanation(
@@ -78,7 +88,11 @@ class Search:
     def explained(self, r: Any, _: Any) -> Any:
         return self.explanation(-r.objective, r, adequacy=0.5 if r.objective < 30.0 else 0.0)
 
-    def model(self, hypothesis: Any, z: np.ndarray, *, quick: bool = False, arcs: Any = ()) -> Any:
+    def model(
+        self, hypothesis: Any, z: np.ndarray, *, quick: bool = False, arcs: Any = (), around: Any = ()
+    ) -> Any:
+        if around:
+            assert around == NARROW and quick
         if arcs:
             assert arcs == TRAINED and quick
             self.trained.append(z)
@@ -90,8 +104,8 @@ class Search:
         assert list(places) == [1, 2, 3, 4, 5]
         return z
 
-    def search(self, start: Start, winding: Sequence[int], worth: float) -> np.ndarray:
-        self.worth = worth
+    def search(self, start: Start, winding: Sequence[int], worth: float, reach: Reach) -> np.ndarray:
+        self.worth, self.reach = worth, reach
         self.begun.append((start.z, winding))
         return FOUND
 
@@ -105,7 +119,7 @@ def test_the_search_begins_beside_the_winding_that_is_usual(monkeypatch: pytest.
     assert np.array_equal(found.refit.z, FOUND)
     # the stack stays as the declared model has it
     assert [z.tolist() for z in search.trained] == [[0.4, 0.0, 0.0, 0.0]]
-    assert search.worth == 200.0
+    assert search.worth == 200.0 and search.reach is ANYWHERE
     ((z, winding),) = search.begun
     assert z.tolist() == [0.4, *np.zeros(7)] and list(winding) == [1, 2, 3]
 
@@ -144,6 +158,45 @@ def test_an_arc_that_leads_has_to_leave_no_more_than_noise_in_losses_too(
     found = with_lost_contact(search.base, [arc], [ARCS], {})
     assert bool(search.begun) == sought
     assert [e.refit.objective for e in found] == ([32.0] if sought else [])
+
+
+def lead(search: Search, candidate: Candidate, log_evidence: float = -20.0) -> Any:
+    """What leaves no more than noise, with a winding of its own."""
+    z = np.array([0.5, 0.1, 0.2, 0.3, 9.0])
+    refit = SimpleNamespace(z=z, hypothesis=SimpleNamespace(constants=4), objective=-log_evidence)
+    return search.explanation(log_evidence, refit, adequacy=0.5, candidates=(candidate,))
+
+
+def test_behind_what_parts_lines_as_an_arc_does_arcs_are_sought_beside_its_winding(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    search = Search(monkeypatch, (25.0,))
+    (found,) = with_lost_contact(search.base, [lead(search, PLACED)], [ARCS], {})
+    assert found.refit.objective == 25.0
+    assert search.reach is NEARBY and search.worth == 20.0 and not search.trained
+    ((z, _),) = search.begun
+    assert z.tolist() == [0.5, 0.1, 0.2, 0.3, *np.zeros(4)]
+
+
+def test_an_arc_that_comes_near_what_leads_is_a_rival_and_one_far_behind_is_none(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    for objective, count in ((20.0 + 0.9 * NEAR_RIVAL, 1), (20.0 + 1.1 * NEAR_RIVAL, 0)):
+        search = Search(monkeypatch, (objective,) * ROUNDS)
+        assert len(with_lost_contact(search.base, [lead(search, PLACED)], [ARCS], {})) == count
+
+
+@pytest.mark.parametrize(
+    "candidate", [replace(PLACED, stage="stack"), LUMP, ARCS], ids=["another step", "no place", "an arc"]
+)
+def test_what_an_arc_does_not_look_like_needs_none_for_a_rival(
+    monkeypatch: pytest.MonkeyPatch, candidate: Candidate
+) -> None:
+    search = Search(monkeypatch, (25.0,))
+    explanation = lead(search, candidate)
+    explanation.adequacy_of_all = 0.5
+    assert with_lost_contact(search.base, [explanation], [ARCS], {}) == []
+    assert not search.begun
 
 
 def test_an_arc_that_explains_less_is_no_news(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,4 +1,4 @@
-"""Arcs of lost contact, sought beside windings all over the prior.
+"""Arcs of lost contact, sought beside windings all over the prior, or like one that is known.
 
 A contact that is lost over a wide arc lets much of the winding go, and few frequencies tell how stiff the rest is:
 there are many valleys nearly as deep. In bases that know two such arcs, and in the few vectors that matter there,
@@ -9,7 +9,7 @@ last ones is right shows in models of their own: there a wrong valley is left wi
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TypeVar
 
@@ -27,47 +27,87 @@ from statorhom.diagnose.searches.sharper import ITSELF, in_its_own_model
 from statorhom.errors import StatorhomError
 
 TRAINED = ((np.deg2rad(60.0), 1e-4), (np.deg2rad(140.0), 1e-4))  # widths and ratios that the bases know
-RANGES = {"arc_deg": (35.0, 220.0), "contact_ratio": (2e-5, 3e-3)}  # that are tried
-ANGLE = "angle_rad"
-SAMPLES = 48  # windings and arcs whose modes span the few vectors
-TRIALS = 1500  # points
-FOLLOWED = 24, 12, 6  # that are followed, fewer as the valleys narrow by degrees
-MODELS = 2  # that are compared in models of their own
+WIDTH, RATIO, ANGLE = "arc_deg", "contact_ratio", "angle_rad"
 PLACES = 24  # angles where a narrow valley begins
 SEED = 0
 
 _T = TypeVar("_T")
 
 
-def arc_beside_any_winding(start: Start, winding: Sequence[int], worth: float) -> np.ndarray | None:
+@dataclass(frozen=True)
+class Reach:
+    """Where arcs are sought.
+
+    Parameters
+    ----------
+    widths_deg, ratios : of the arcs that are tried.
+    aside : prior standard deviations to either side of the start's winding; None where windings are tried all over
+        the prior.
+    discrepancy : of the valleys in which points are scored.
+    samples : windings and arcs whose modes span the few vectors.
+    trials : points.
+    followed : how many of them are followed, fewer as the valleys narrow by degrees.
+    models : how many of the last ones are compared in models of their own.
+    """
+
+    widths_deg: tuple[float, float]
+    ratios: tuple[float, float]
+    aside: float | None
+    discrepancy: float
+    samples: int
+    trials: int
+    followed: tuple[int, int, int]
+    models: int
+
+    def windings(self, parts: np.ndarray, around: np.ndarray) -> np.ndarray:
+        """Coordinates of a winding for parts (0 … 1) of the reach."""
+        return over_the_prior(parts) if self.aside is None else around + self.aside * (2 * parts - 1)
+
+    def arcs(self, parts: np.ndarray) -> dict[str, float]:
+        """Width (deg) and ratio for parts (0 … 1) of the reach."""
+        ranges = ((WIDTH, self.widths_deg), (RATIO, self.ratios))
+        return {
+            name: float(low * (high / low) ** p) for p, (name, (low, high)) in zip(parts, ranges, strict=True)
+        }
+
+
+ANYWHERE = Reach((35.0, 220.0), (2e-5, 3e-3), None, COARSE, 48, 1500, (24, 12, 6), 2)
+NEARBY = Reach((12.0, 90.0), (5e-5, 5e-3), 0.5, NARROWING[0], 24, 300, (8, 6, 4), 1)
+
+
+def best_arc(
+    start: Start, winding: Sequence[int], worth: float, reach: Reach = ANYWHERE
+) -> np.ndarray | None:
     """Coordinates of the best arc; None where no winding will do.
 
     Parameters
     ----------
-    start : an arc, in bases that know arcs like `TRAINED`.
+    start : an arc, in bases that know arcs such as are sought.
     winding : places of the constants that are sought with it.
     worth : objective that is reached without; few vectors may miss the arc's by some.
+    reach : where it is sought.
     """
-    few = in_few_vectors(start.hypothesis, _points(start, winding, SAMPLES, SEED + 1))
-    rough = replace(few, discrepancy=COARSE, trained=False)
-    nearest = apart(nearest_first(rough, _points(start, winding, TRIALS, SEED)), FOLLOWED[0])
-    found = _optima(partial(in_valleys, few, discrepancy=NARROWING[0]), nearest, few)
-    found = _optima(_narrower, found[: FOLLOWED[1]], few)
-    found = _optima(_turned, found[: FOLLOWED[2]], few)
+    few = in_few_vectors(start.hypothesis, _points(start, winding, reach, reach.samples, SEED + 1))
+    rough = replace(few, discrepancy=reach.discrepancy, trained=False)
+    nearest = nearest_first(rough, _points(start, winding, reach, reach.trials, SEED))
+    most, fewer, fewest = reach.followed
+    found = _optima(partial(in_valleys, few, discrepancy=NARROWING[0]), apart(nearest, most), few)
+    found = _optima(_narrower, found[:fewer], few)
+    found = _optima(_turned, found[:fewest], few)
     found = [r for r in found if r.objective < worth + FAR_BEHIND]
-    return _best(start.hypothesis, winding, found) if found else None
+    return _best(start.hypothesis, winding, found, reach.models) if found else None
 
 
-def _points(start: Start, winding: Sequence[int], count: int, seed: int) -> list[np.ndarray]:
-    """Windings all over the prior with arcs of all widths and ratios; wide valleys see no angle."""
+def _points(start: Start, winding: Sequence[int], reach: Reach, count: int, seed: int) -> list[np.ndarray]:
+    """Windings with arcs of all widths and ratios within a reach; wide valleys see no angle."""
     known = {p.name: p for p in start.hypothesis.candidates[-1].parameters}
-    cube = qmc.LatinHypercube(len(winding) + len(RANGES), seed=seed).random(count)
+    own, places = len(winding), list(winding)
     found = []
-    for row in cube:
+    for row in qmc.LatinHypercube(own + 2, seed=seed).random(count):
         z = start.z.copy()
-        z[list(winding)] = over_the_prior(row[: len(winding)])
-        for part, (name, (low, high)) in zip(row[len(winding) :], RANGES.items(), strict=True):
-            z[_place(start.hypothesis, name)] = known[name].internal(float(low * (high / low) ** part))
+        z[places] = reach.windings(row[:own], start.z[places])
+        for name, value in reach.arcs(row[own:]).items():
+            z[_place(start.hypothesis, name)] = known[name].internal(value)
         found.append(np.clip(z, *start.hypothesis.limits()))
     return found
 
@@ -113,13 +153,15 @@ def _all_around(hypothesis: Hypothesis, z: np.ndarray) -> list[np.ndarray]:
 
 def varied(hypothesis: Hypothesis, winding: Sequence[int]) -> list[int]:
     """Places of what is sought: a winding's constants, and the width and the ratio of the arc."""
-    return [*winding, *(_place(hypothesis, name) for name in RANGES)]
+    return [*winding, _place(hypothesis, WIDTH), _place(hypothesis, RATIO)]
 
 
-def _best(start: Hypothesis, winding: Sequence[int], found: Sequence[Refit]) -> np.ndarray:
+def _best(start: Hypothesis, winding: Sequence[int], found: Sequence[Refit], models: int) -> np.ndarray:
     """Of the last ones that are near each other, the one that leaves least in a model of its own, where that led it."""
-    near = [r for r in found if r.objective < found[0].objective + FAR_BEHIND][:MODELS]
-    judged = side_by_side(partial(_judged, start, varied(start, winding)), [r.z for r in near])
+    near = [r.z for r in found if r.objective < found[0].objective + FAR_BEHIND][:models]
+    if models == 1:
+        return near[0]
+    judged = side_by_side(partial(_judged, start, varied(start, winding)), near)
     return min(judged, key=lambda j: j[0])[1]
 
 

@@ -1,16 +1,21 @@
-"""A contact that is lost over an arc, where nothing explains the misfit, or only an arc does and not well.
+"""A contact that is lost over an arc, where nothing explains the misfit, or something does that an arc looks like.
 
 The declared model, whose winding holds on everywhere, takes the lost contact for a winding that is ten or fifty times
 too soft, and so softly held a winding has no use for a contact that is lost. So arcs are sought beside windings all
 over the prior (`statorhom.diagnose.searches.arc_search`), and what is found gets models of its own.
+
+A narrow arc leaves the winding as it is. What it does to the few lines of a wound stator a lump does as well, or
+whatever else parts them: behind such a lead arcs are sought beside the winding that came with it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
+from statorhom.diagnose.evidence.decision import NEAR_RIVAL
 from statorhom.diagnose.fits.explanations import (
     ADEQUATE,
     WELL,
@@ -22,13 +27,17 @@ from statorhom.diagnose.fits.explanations import (
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit, evaluated
 from statorhom.diagnose.searches.arc_search import (
-    RANGES,
+    ANYWHERE,
+    NEARBY,
+    RATIO,
     TRAINED,
-    arc_beside_any_winding,
+    WIDTH,
+    Reach,
+    best_arc,
     followed_near,
     varied,
 )
-from statorhom.diagnose.searches.refit_starts import first_start
+from statorhom.diagnose.searches.refit_starts import Start, first_start
 from statorhom.diagnose.searches.sharper import in_its_own_model
 from statorhom.diagnose.searches.typical_materials import with_typical_materials
 from statorhom.diagnose.stages.constants import new_constants
@@ -36,6 +45,7 @@ from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
 
 ROUNDS = 3  # models of its own for the best one
+NARROW = 0.6, 1.6  # times the width of an arc's first start, that the bases know where narrow arcs are sought
 
 
 def with_lost_contact(
@@ -50,14 +60,24 @@ def with_lost_contact(
     candidates : all effects.
     counts : effect → number of its candidates, over which its prior is spread.
     """
-    arcs = [c for c in candidates if set(RANGES) < {p.name for p in c.parameters}]
-    if not arcs:
-        return []
+    arcs = [c for c in candidates if {WIDTH, RATIO} <= {p.name for p in c.parameters}]
     best = found[0] if found else nothing(base)
-    if _is_settled(best, arcs) or nothing(base).adequacy > ADEQUATE:
+    if not arcs or nothing(base).adequacy > ADEQUATE:
         return []
-    own = (explained(r, counts) for c in arcs if (r := _sought(base, c, best.refit.objective)) is not None)
-    return [e for e in own if e.log_evidence > best.log_evidence]
+    if not _is_settled(best, arcs):
+        own = [r for c in arcs if (r := _beside_any(base, c, best.refit.objective)) is not None]
+        return [e for r in own if (e := explained(r, counts)).log_evidence > best.log_evidence]
+    alike = [c for c in arcs if _looks_like(best, c)]
+    own = [r for c in alike if (r := _beside_that_of(best.refit, base, c)) is not None]
+    return [e for r in own if (e := explained(r, counts)).log_evidence > best.log_evidence - NEAR_RIVAL]
+
+
+def _looks_like(best: Explanation, arc: Candidate) -> bool:
+    """Whether what leads sits somewhere on the circumference of the arc's step, as an arc does, and is none."""
+    return any(
+        c.stage == arc.stage and c.effect != arc.effect and any(p.scale == "angle" for p in c.parameters)
+        for c in best.candidates
+    )
 
 
 def _is_settled(best: Explanation, arcs: Sequence[Candidate]) -> bool:
@@ -71,7 +91,7 @@ def _is_settled(best: Explanation, arcs: Sequence[Candidate]) -> bool:
     return best.adequacy_but_one > WELL
 
 
-def _sought(base: Refit, candidate: Candidate, worth: float) -> Refit | None:
+def _beside_any(base: Refit, candidate: Candidate, worth: float) -> Refit | None:
     """The best optimum of an arc beside any winding, in a model of its own; None where no winding will do.
 
     Parameters
@@ -80,11 +100,24 @@ def _sought(base: Refit, candidate: Candidate, worth: float) -> Refit | None:
     worth : objective that is reached without an arc.
     """
     typical = with_typical_materials(base, candidate.stage, quick=True, arcs=TRAINED)
-    if typical is None:
+    return None if typical is None else _sought(first_start(typical, candidate), worth, ANYWHERE)
+
+
+def _beside_that_of(leader: Refit, base: Refit, candidate: Candidate) -> Refit | None:
+    """The same beside windings like that of what leads."""
+    constants = leader.z[: leader.hypothesis.constants]
+    start = first_start(replace(base, z=constants), candidate)
+    try:
+        own = in_its_own_model(start.hypothesis, start.z, quick=True, around=NARROW)
+    except (StatorhomError, KeyError):
         return None
-    start = first_start(typical, candidate)
-    winding = new_constants(base.hypothesis.study.constants, candidate.stage)
-    z = arc_beside_any_winding(start, winding, worth)
+    return _sought(replace(start, hypothesis=own), leader.objective, NEARBY)
+
+
+def _sought(start: Start, worth: float, reach: Reach) -> Refit | None:
+    """The best optimum of an arc within reach, in a model of its own."""
+    winding = new_constants(start.hypothesis.study.constants, start.hypothesis.candidates[-1].stage)
+    z = best_arc(start, winding, worth, reach)
     try:
         there = None if z is None else evaluated(start.hypothesis, z)
     except (StatorhomError, KeyError):
