@@ -51,7 +51,9 @@ NARROW = 0.6, 1.6  # times the width of an arc's first start, that the bases kno
 def with_lost_contact(
     base: Refit, found: Sequence[Explanation], candidates: Sequence[Candidate], counts: dict[str, int]
 ) -> list[Explanation]:
-    """Arcs of lost contact that explain more than anything that was found, where that leaves much to explain.
+    """Arcs of lost contact that explain more than anything that was found, or come near what they look like.
+
+    They are sought where much is left to explain, and behind what sits on the circumference of a winding's step.
 
     Parameters
     ----------
