@@ -71,8 +71,26 @@ class Reach:
         }
 
 
-ANYWHERE = Reach((35.0, 220.0), (2e-5, 3e-3), None, COARSE, 48, 1500, (24, 12, 6), 2)
-NEARBY = Reach((12.0, 90.0), (5e-5, 5e-3), 0.5, NARROWING[0], 24, 300, (8, 6, 4), 1)
+ANYWHERE = Reach(
+    widths_deg=(35.0, 220.0),
+    ratios=(2e-5, 3e-3),
+    aside=None,
+    discrepancy=COARSE,
+    samples=48,
+    trials=1500,
+    followed=(24, 12, 6),
+    models=2,
+)
+NEARBY = Reach(
+    widths_deg=(12.0, 90.0),
+    ratios=(5e-5, 5e-3),
+    aside=0.5,
+    discrepancy=NARROWING[0],
+    samples=24,
+    trials=300,
+    followed=(8, 6, 4),
+    models=1,
+)
 
 
 def best_arc(
@@ -160,7 +178,7 @@ def _best(start: Hypothesis, winding: Sequence[int], found: Sequence[Refit], mod
     """Of the last ones that are near each other, the one that leaves least in a model of its own, where that led it."""
     near = [r.z for r in found if r.objective < found[0].objective + FAR_BEHIND][:models]
     if models == 1:
-        return near[0]
+        return near[0]  # nothing to compare it with; its own model is made by whoever asked
     judged = side_by_side(partial(_judged, start, varied(start, winding)), near)
     return min(judged, key=lambda j: j[0])[1]
 

@@ -76,10 +76,7 @@ def with_lost_contact(
 
 def _looks_like(best: Explanation, arc: Candidate) -> bool:
     """Whether what leads sits somewhere on the circumference of the arc's step, as an arc does, and is none."""
-    return any(
-        c.stage == arc.stage and c.effect != arc.effect and any(p.scale == "angle" for p in c.parameters)
-        for c in best.candidates
-    )
+    return any(c.stage == arc.stage and c.effect != arc.effect and c.located for c in best.candidates)
 
 
 def _is_settled(best: Explanation, arcs: Sequence[Candidate]) -> bool:
