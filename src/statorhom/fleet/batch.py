@@ -15,8 +15,8 @@ from statorhom.fleet.executor import Executor, Lost
 from statorhom.fleet.load import load_fleet
 from statorhom.fleet.machine import Ending, Machine, fit_machine
 from statorhom.fleet.table import fleet_table, write_table
-from statorhom.identify.chain import silent
 from statorhom.identify.fits.stage_run import Announce
+from statorhom.identify.processes.announce import silent
 from statorhom.identify.stages.settings import Settings
 from statorhom.results.files import check_folder
 from statorhom.results.schema import Results

@@ -109,7 +109,7 @@ def start() -> Start:
 
 
 def test_the_best_winding_and_arc_of_all_that_are_tried_is_found(search: Search) -> None:
-    z = best_arc(start(), WINDING, 100.0)
+    z = best_arc(start(), WINDING, 100.0, ANYWHERE)
     assert z is not None
     found = effect(z)
     # the stack stays where it was; the arc is turned to its best place
@@ -155,7 +155,7 @@ def test_the_best_of_what_is_nearby_gets_no_model_before_the_next(search: Search
 
 @pytest.mark.usefixtures("search")
 def test_the_same_points_give_the_same_answer() -> None:
-    first, second = (best_arc(start(), WINDING, 100.0) for _ in range(2))
+    first, second = (best_arc(start(), WINDING, 100.0, ANYWHERE) for _ in range(2))
     assert first is not None and np.array_equal(first, second)  # type: ignore[arg-type]
 
 
@@ -186,9 +186,9 @@ def test_of_both_ways_into_a_model_of_its_own_the_better_one_counts(
 @pytest.mark.usefixtures("search")
 def test_where_no_winding_can_be_followed_nothing_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "in_valleys", lambda *_, **__: None)
-    assert best_arc(start(), WINDING, 100.0) is None
+    assert best_arc(start(), WINDING, 100.0, ANYWHERE) is None
 
 
 def test_an_arc_that_explains_no_more_than_is_explained_without_gets_no_model(search: Search) -> None:
-    assert best_arc(start(), WINDING, -FAR_BEHIND) is None
+    assert best_arc(start(), WINDING, -FAR_BEHIND, ANYWHERE) is None
     assert search.judged == []

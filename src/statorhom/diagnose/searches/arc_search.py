@@ -93,9 +93,7 @@ NEARBY = Reach(
 )
 
 
-def best_arc(
-    start: Start, winding: Sequence[int], worth: float, reach: Reach = ANYWHERE
-) -> np.ndarray | None:
+def best_arc(start: Start, winding: Sequence[int], worth: float, reach: Reach) -> np.ndarray | None:
     """Coordinates of the best arc; None where no winding will do.
 
     Parameters

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from statorhom.identify.comparison.mode_results import shared_shift, simulated_modes
 from statorhom.identify.fits.stage_run import StageRun
 from statorhom.identify.residuals.model_error import DEFAULT_RELATIVE_SD
+from statorhom.identify.results.surface_search import surface_warnings
 from statorhom.identify.stages.stage_materials import DENSITY
-from statorhom.identify.surface.summary import surface_warnings
 from statorhom.mesh.mirror_mesh import MirrorMesh
 from statorhom.results.schema import ModeResult
 from statorhom.study.response_surface import SurfaceKeys

@@ -14,9 +14,9 @@ from statorhom.identify.residuals.sensitivity import sensitivity
 from statorhom.identify.results.material_tests import material_test_results, tested_frequencies
 from statorhom.identify.results.stage_losses import with_losses
 from statorhom.identify.results.stage_remarks import assumptions, warnings
+from statorhom.identify.results.surface_search import surface_summary
 from statorhom.identify.stages.stage_materials import DENSITY
 from statorhom.identify.stages.stage_setup import StageSetup
-from statorhom.identify.surface.summary import surface_summary
 from statorhom.materials.density import RegionDensity
 from statorhom.materials.plausibility import density_warning
 from statorhom.mesh.mirror_mesh import MirrorMesh

@@ -1,4 +1,4 @@
-"""A search by response surface as results.json tells it."""
+"""A search by response surface as results.json tells it, and what its reader must know first."""
 
 from __future__ import annotations
 
