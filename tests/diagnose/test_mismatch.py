@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from statorhom.diagnose.measured.feature import Feature
-from statorhom.diagnose.report_rows import mismatch
+from statorhom.diagnose.mismatch import mismatch
 
 
-def said(*residuals: float, density: float = 7650.0) -> str:
-    """Of frequencies of one test that are off by so many standard deviations, and of a density (kg/m³)."""
+def said(*residuals: float, density: float = 7650.0, more: Sequence[Feature] = ()) -> str:
+    """Of frequencies of one test that are off by so many standard deviations, a density (kg/m³), and more."""
     features = [
         Feature("frequency", "free", (r, 0, 0), 7.0 + 1e-3 * off, 7.0, 1e-3)
         for r, off in enumerate(residuals, start=2)
     ]
+    features += more
     features.append(Feature("density", "", None, density, 7650.0, 50.0))
     stage = SimpleNamespace(name="stack", tests=(SimpleNamespace(name="free"),))
     hypothesis = SimpleNamespace(features=lambda _: features, study=SimpleNamespace(stages=(stage,)))
@@ -34,7 +36,8 @@ def said(*residuals: float, density: float = 7650.0) -> str:
             (2.0, -2.1, 2.4, 1.9),
             "no mode is far off, but all together are, frequencies by 2.1 standard deviations",
         ),
-        ((0.5, -1.0, 5.0, 0.8), "1 frequencies are off, (4, 0) by -0.50 % (5 standard deviations)"),
+        ((4.5, -1.0, 5.0, 0.8), "2 frequencies are off, (4, 0) by -0.50 % (5 standard deviations)"),
+        ((0.5, -1.0, 5.0, 0.8), "1 frequency is off, (4, 0) by -0.50 % (5 standard deviations)"),
     ],
 )
 def test_many_modes_that_are_a_little_off_are_not_met(residuals: tuple[float, ...], words: str) -> None:
@@ -44,4 +47,28 @@ def test_many_modes_that_are_a_little_off_are_not_met(residuals: tuple[float, ..
 def test_an_impossible_density_is_told_where_modes_are_met() -> None:
     """Of a wrong length constants make up for what the modes say; the volume stays wrong."""
     assert "weights and volumes give 8415 kg/m³ where 7650 is usual" in said(0.5, -1.0, 1.2, density=8415.0)
-    assert "frequencies are off" in said(0.5, -1.0, 5.0, density=8415.0)
+    assert "frequency is off" in said(0.5, -1.0, 5.0, density=8415.0)
+
+
+def off(kind: str, *orders: int) -> list[Feature]:
+    """Features of modes that are five standard deviations off."""
+    return [Feature(kind, "free", (r, 0, 0), 5e-3, 0.0, 1e-3) for r in orders]
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        (off("split", 2), "free: 1 doublet is split otherwise than predicted"),
+        (off("split", 2, 3), "free: 2 doublets are split otherwise than predicted"),
+        (off("lean", 2), "free: 1 shape leans to one end otherwise than predicted"),
+        (off("shape", 2, 3), "free: 2 shapes are not those of the declared body"),
+        (
+            off("level", 2) + off("level_loss", 2),
+            "free: 1 mode changes with the force otherwise than predicted",
+        ),
+        (off("level_loss", 2, 3), "free: 2 modes change with the force otherwise than predicted"),
+    ],
+)
+def test_what_is_off_beside_frequencies_is_counted_by_modes(more: Sequence[Feature], words: str) -> None:
+    """Of a test whose modes slip as the force grows nothing else may be off."""
+    assert said(0.5, -1.0, more=more) == words

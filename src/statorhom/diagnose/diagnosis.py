@@ -39,6 +39,7 @@ from statorhom.diagnose.fits.explanations import (
 from statorhom.diagnose.located.place_rows import summaries
 from statorhom.diagnose.located.scan import Scan
 from statorhom.diagnose.measured.measured_test import MeasuredTest
+from statorhom.diagnose.mismatch import mismatch
 from statorhom.diagnose.next_measurement.choice import Choice
 from statorhom.diagnose.processes.one_line_errors import one_line_errors
 from statorhom.diagnose.processes.side_by_side import processes
@@ -48,7 +49,6 @@ from statorhom.diagnose.report_rows import (
     effect_results,
     feature_rows,
     frequency_errors,
-    mismatch,
 )
 from statorhom.diagnose.searches.approach import RING, Approach
 from statorhom.diagnose.searches.hidden_materials import beside_hidden_materials

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import numpy as np
 
@@ -23,16 +23,12 @@ from statorhom.results.diagnosis import (
     Estimated,
     FeatureRow,
     Location,
-    Mismatch,
     PlanLocation,
 )
 
 Located = Callable[[Explanation, int], Location | PlanLocation | None]
 
 STEP = 1e-3  # of internal coordinates
-REMARKABLE = 3.0  # standard deviations
-TOGETHER = 1.2  # root mean square, in standard deviations: from which on modes are off though none of them is by much
-MOST_MODES = 8
 
 
 def effect_results(
@@ -125,84 +121,6 @@ def frequency_errors(r: Refit, other: Refit) -> Errors:
     if not errors:
         return Errors(rms_percent=0.0, max_percent=0.0)
     return Errors(rms_percent=float(np.sqrt(np.mean(np.square(errors)))), max_percent=float(max(errors)))
-
-
-def mismatch(base: Refit) -> Mismatch | None:
-    """The test that the declared model meets worst, and its modes."""
-    features = [f for f in base.hypothesis.features(base.z) if f.test]
-    tests = {t.name: s.name for s in base.hypothesis.study.stages for t in s.tests}
-    if not features:
-        return None
-    cost: dict[str, float] = {}
-    for f in features:
-        cost[f.test] = cost.get(f.test, 0.0) + f.residual**2
-    worst = max(cost, key=lambda t: cost[t])
-    odd = sorted(
-        (f for f in features if f.test == worst and abs(f.residual) > REMARKABLE),
-        key=lambda f: -abs(f.residual),
-    )
-    modes = tuple(dict.fromkeys(f.mode for f in odd if f.mode is not None))[:MOST_MODES]
-    lost = sum(f.lost and f.kind == "frequency" for f in odd)
-    said = _statement(worst, odd, lost) or _weighed(base) or _unremarkable(worst, features)
-    return Mismatch(stage=tests[worst], test=worst, modes=modes, statement=said)
-
-
-def _weighed(base: Refit) -> str:
-    """Of weights: modes may be met by constants of an impossible density, for of a wrong length they make up."""
-    odd = [
-        f for f in base.hypothesis.features(base.z) if f.kind == "density" and abs(f.residual) > REMARKABLE
-    ]
-    if not odd:
-        return ""
-    f = max(odd, key=lambda f: abs(f.residual))
-    return (
-        f"the declared model meets every measured mode, but weights and volumes give {f.measured:.0f} kg/m³ "
-        f"where {f.predicted:.0f} is usual ({abs(f.residual):.0f} standard deviations)"
-    )
-
-
-def _unremarkable(test: str, features: Sequence[Feature]) -> str:
-    """Of a test of which no mode is remarkably off: all together may be."""
-    # doublets that show one line have a split of nothing each
-    own = [f.residual for f in features if f.test == test and f.kind == "frequency"]
-    rms = float(np.sqrt(np.mean(np.square(own)))) if own else 0.0
-    if rms <= TOGETHER:
-        return "the declared model meets every measured mode within its uncertainty"
-    return f"{test}: no mode is far off, but all together are, frequencies by {rms:.1f} standard deviations (rms)"
-
-
-def _statement(test: str, odd: Sequence[Feature], lost: int) -> str:
-    """Of what is remarkably off; empty where nothing is."""
-    if not odd:
-        return ""
-    parts = []
-    frequency = [f for f in odd if f.kind == "frequency" and not f.lost]
-    if frequency:
-        f = frequency[0]
-        error = 100 * (np.exp(f.predicted - f.measured) - 1)
-        parts.append(
-            f"{len(frequency)} frequencies are off, {_words(f)} by {error:+.2f} % "
-            f"({abs(f.residual):.0f} standard deviations)"
-        )
-    splits = {f.key for f in odd if f.kind == "split" and not f.lost}
-    if splits:
-        parts.append(f"{len(splits)} doublets are split otherwise than predicted")
-    if any(f.kind == "shift" for f in odd):
-        parts.append("poles move from measuring plane to measuring plane")
-    leaning = {f.key for f in odd if f.kind == "lean"}
-    if leaning:
-        parts.append(f"{len(leaning)} shapes lean to one end otherwise than predicted")
-    shapes = {f.key for f in odd if f.kind == "shape"}
-    if shapes:
-        parts.append(f"{len(shapes)} shapes are not those of the declared body")
-    if lost:
-        parts.append(f"{lost} modes have no partner")
-    return f"{test}: {'; '.join(parts)}"
-
-
-def _words(f: Feature) -> str:
-    mode = f.mode or ()
-    return f"mode {mode[0]}" if len(mode) == 1 else f"({', '.join(str(number) for number in mode)})"
 
 
 def feature_rows(base: Refit, best: Refit) -> tuple[FeatureRow, ...]:
