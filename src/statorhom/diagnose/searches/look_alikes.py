@@ -35,11 +35,12 @@ def look_alikes(
     candidates : all effects.
     counts : effect → number of its candidates, over which its prior is spread.
     """
-    if not found or nothing(base).adequacy > ADEQUATE or not isinstance(base.hypothesis, Hypothesis):
+    if not found or not isinstance(base.hypothesis, Hypothesis):
         return []
     best, study = found[0], base.hypothesis.study
-    if best.adequacy_but_one <= WELL:
-        return []  # what costs little is sought thoroughly in any case
+    # where no more is left than noise it has not been sought thoroughly yet
+    if best.adequacy_but_one <= WELL or nothing(base).adequacy > ADEQUATE:
+        return []
     later = {stage.name for stage in study.stages[1:]}
     begun = cheap_starts(
         base,
