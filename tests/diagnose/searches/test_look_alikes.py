@@ -14,7 +14,12 @@ from statorhom.diagnose.searches.look_alikes import NEAR, look_alikes
 
 LEAD = -50.0  # log evidence
 # objectives of what is found in the common model, and log evidence in models of their own
-COMMON = {"end_winding_stiffness": 80.0, "loose_winding_mass": 20.0}
+COMMON = {
+    "end_winding_stiffness": 80.0,
+    "loose_winding_mass": 20.0,
+    "viscoelastic_winding": 9.0,
+    "wrong_input": 30.0,
+}
 
 
 def candidate(effect: str, stage: str = "wound") -> Any:
@@ -26,7 +31,7 @@ def lead(effect: str, adequacy: float = 2 * WELL, stage: str = "wound") -> Any:
         candidates=(candidate(effect, stage),),
         log_evidence=LEAD,
         adequacy_but_one=adequacy,
-        refit=SimpleNamespace(objective=10.0),
+        refit=SimpleNamespace(effect=effect, objective=10.0),
     )
 
 
@@ -49,14 +54,22 @@ CANDIDATES = [
 def sought(monkeypatch: pytest.MonkeyPatch) -> tuple[list[str], dict[str, float]]:
     """Labels of what was sought, and effect → log evidence in a model of its own."""
     seen: list[str] = []
-    evidence = {"end_winding_stiffness": LEAD + 40.0, "loose_winding_mass": LEAD - 2 * NEAR_RIVAL}
+    evidence = {
+        "end_winding_stiffness": LEAD + 40.0,
+        "loose_winding_mass": LEAD - 2 * NEAR_RIVAL,
+        "viscoelastic_winding": LEAD + 60.0,
+        "wrong_input": LEAD,
+    }
 
     def best_of_many(start: Any) -> Any:
         seen.append(start.label)
         return SimpleNamespace(effect=start.effect, objective=COMMON[start.effect])
 
     def in_own_models(found: list[Any], _: Any) -> list[Any]:
-        return [SimpleNamespace(effect=r.effect, log_evidence=evidence[r.effect]) for r in found]
+        return [
+            SimpleNamespace(effect=r.effect, objective=r.objective, log_evidence=evidence[r.effect])
+            for r in found
+        ]
 
     monkeypatch.setattr(module, "Hypothesis", SimpleNamespace)
     monkeypatch.setattr(module, "nothing", lambda base: base)
@@ -67,20 +80,24 @@ def sought(monkeypatch: pytest.MonkeyPatch) -> tuple[list[str], dict[str, float]
     return seen, evidence
 
 
-def test_what_a_lead_is_taken_for_leads_once_it_was_sought(sought: Any) -> None:
-    """The library calls a winding that follows the frequency like a soft end winding."""
+def test_what_a_lead_is_taken_for_is_found_once_it_was_sought(sought: Any) -> None:
+    """The library calls a winding that follows the frequency like a soft end winding; both are sought alike then."""
     found = look_alikes(base(), [lead("viscoelastic_winding")], CANDIDATES, {})
-    assert [e.effect for e in found] == ["end_winding_stiffness"]
-    assert sought[0] == ["end_winding_stiffness wound"]
+    assert [(e.effect, e.objective) for e in found] == [
+        ("end_winding_stiffness", 80.0),
+        ("viscoelastic_winding", 10.0),  # as it was found
+        ("viscoelastic_winding", 9.0),  # and sought again
+    ]
+    assert sought[0] == ["end_winding_stiffness wound", "viscoelastic_winding wound"]
 
 
 def test_both_effects_may_say_that_they_are_confused_and_what_stays_behind_is_no_rival(sought: Any) -> None:
     """Of wrong inputs it is the loose winding that says so, and it is sought on the lead's step alone."""
     assert not look_alikes(base(), [lead("wrong_input")], CANDIDATES, {})
-    assert sought[0] == ["loose_winding_mass wound"]
+    assert sought[0] == ["loose_winding_mass wound"]  # without a rival the lead is as it was
     sought[1]["loose_winding_mass"] = LEAD - 0.5 * NEAR_RIVAL
     found = look_alikes(base(), [lead("wrong_input")], CANDIDATES, {})
-    assert [e.effect for e in found] == ["loose_winding_mass"]
+    assert [e.effect for e in found] == ["loose_winding_mass", "wrong_input", "wrong_input"]
 
 
 def test_what_is_far_behind_in_the_common_model_gets_none_of_its_own(

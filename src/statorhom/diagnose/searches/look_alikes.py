@@ -26,7 +26,7 @@ NEAR = 120.0  # of the objective: how far behind the lead an optimum may be in t
 def look_alikes(
     base: Refit, found: Sequence[Explanation], candidates: Sequence[Candidate], counts: dict[str, int]
 ) -> list[Explanation]:
-    """Explanations by what the lead is taken for, where they are better than the lead or come near it.
+    """Explanations by what the lead is taken for that are better or come near it, and then by the lead, sought alike.
 
     Parameters
     ----------
@@ -53,4 +53,11 @@ def look_alikes(
     )
     again = side_by_side(best_of_many, begun, shared_by(begun))
     near = [r for r in again if r is not None and r.objective < best.refit.objective + NEAR]
-    return [e for e in in_own_models(near, counts) if e.log_evidence > best.log_evidence - NEAR_RIVAL]
+    rivals = [e for e in in_own_models(near, counts) if e.log_evidence > best.log_evidence - NEAR_RIVAL]
+    return [*rivals, *_as_thoroughly(base, best, counts)] if rivals else []
+
+
+def _as_thoroughly(base: Refit, best: Explanation, counts: dict[str, int]) -> list[Explanation]:
+    """The lead sought like its rivals: none of them may win by what another was not given."""
+    again = [best_of_many(start) for start in cheap_starts(base, best.candidates)]
+    return in_own_models([r for r in (best.refit, *again) if r is not None], counts)
