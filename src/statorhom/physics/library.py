@@ -45,3 +45,13 @@ def candidates_of(effect: Effect, files: StudyFiles) -> tuple[Candidate, ...]:
     """What an effect can be in a study, by the kind of body that the study is of; two of it are declared as two."""
     by_kind = {STATOR: effect.candidates, TUBE: effect.tube_candidates}
     return by_kind.get(files.drawing.kind, effect.coupon_candidates)(files)
+
+
+def look_alike(one: Candidate, other: Candidate, files: StudyFiles) -> bool:
+    """Whether the library says of either of two effects that it is confused with the other."""
+    pairs = ((one.effect, other.effect), (other.effect, one.effect))
+    return any(
+        confusion.effect == taken_for
+        for effect, taken_for in pairs
+        for confusion in library()[effect].words(files).confused_with
+    )

@@ -100,6 +100,21 @@ def test_a_contact_lost_beside_another_winding_is_judged_by_its_evidence(
     assert found.chance(lump) == 1e-4
 
 
+def test_what_the_lead_is_taken_for_is_sought_behind_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    soft, slow = explanation("soft", -40.0), explanation("slow", -50.0)
+    asked: list[Any] = []
+
+    def alike(_: Any, found: Any, *__: Any) -> list[Any]:
+        asked.append(found)
+        return [soft]
+
+    monkeypatch.setattr(leading, "look_alikes", alike)
+    found = led(monkeypatch, 0.5, (base(-700.0), [slow]))
+    assert asked == [(slow,)]
+    assert found.found == (soft, slow)
+    assert found.elsewhere == {"soft"}
+
+
 def test_what_typical_materials_lead_to_is_judged_by_its_evidence(monkeypatch: pytest.MonkeyPatch) -> None:
     """Beside a winding a tenth as stiff no signature gains, so that the scan finds nothing."""
     soft, loose = explanation("soft", -52.0), explanation("loose", -90.0)

@@ -47,7 +47,7 @@ def beside_typical_materials(
         start for stage in base.hypothesis.study.stages for start in _starts(base, stage.name, candidates)
     ]
     again = side_by_side(_best_anywhere, begun, shared_by(begun))
-    own = _in_own_models([r for r in again if r is not None], counts)
+    own = in_own_models([r for r in again if r is not None], counts)
     return own if own and own[0].log_evidence > best.log_evidence else []
 
 
@@ -65,8 +65,14 @@ def _best_anywhere(start: Start) -> Refit | None:
     return min(optima_elsewhere(start), key=lambda r: r.objective, default=None)
 
 
-def _in_own_models(found: Sequence[Refit], counts: dict[str, int]) -> list[Explanation]:
-    """The best of them in models of their own, and the others as they are; the best first."""
+def in_own_models(found: Sequence[Refit], counts: dict[str, int]) -> list[Explanation]:
+    """The best of some optima in models of their own, and the others as they are; the best first.
+
+    Parameters
+    ----------
+    found : the optima.
+    counts : effect → number of its candidates, over which its prior is spread.
+    """
     ordered = sorted(found, key=lambda r: r.objective)
     near = [r for r in ordered[:OWN_MODELS] if r.objective < ordered[0].objective + NEAR]
     shared = [one for r in near for one in (r.hypothesis, *r.hypothesis.shared)]

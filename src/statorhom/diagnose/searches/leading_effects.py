@@ -16,6 +16,7 @@ from statorhom.diagnose.located.scan import Scan, scan
 from statorhom.diagnose.searches.approach import Approach
 from statorhom.diagnose.searches.beside_typical import beside_typical_materials
 from statorhom.diagnose.searches.lacking_modes import lacks_modes
+from statorhom.diagnose.searches.look_alikes import look_alikes
 from statorhom.diagnose.searches.lost_contact import with_lost_contact
 from statorhom.diagnose.searches.other_valleys import in_other_valleys
 from statorhom.diagnose.searches.refit_starts import starts_of
@@ -88,6 +89,7 @@ def leading_effects(
         only = leading.found[0].label if _explains(leading.found[0], deeper) else None
         leading = _joined(leading, _beside(deeper, candidates, counts, seed, only=only))
     leading = _with_more(leading, sought_thoroughly(leading.base.free, leading.found, candidates, counts))
+    leading = _with_more(leading, look_alikes(leading.base.free, leading.found, candidates, counts))
     # what no signature beside the declared winding shows
     return _with_more(leading, with_lost_contact(leading.base.free, leading.found, candidates, counts))
 

@@ -50,12 +50,12 @@ def sought_thoroughly(
         return []
     later = {stage.name for stage in base.hypothesis.study.stages[1:]}
     begun = cheap_starts(base, [c for c in candidates if c.stage in later])
-    again = side_by_side(_best_of_many, begun, shared_by(begun))
+    again = side_by_side(best_of_many, begun, shared_by(begun))
     better = [explained(r, counts) for r in again if r is not None]
     return [e for e in better if e.log_evidence > best.log_evidence]
 
 
-def _best_of_many(start: Start) -> Refit | None:
+def best_of_many(start: Start) -> Refit | None:
     """The best optimum that many points all over the prior of the step lead to."""
     found = searched_starts(start.hypothesis, start.z, SEED, REFITTED)
     alike = [rough for rough in found[:NARROWED] if rough.objective <= found[0].objective + ALIKE]
