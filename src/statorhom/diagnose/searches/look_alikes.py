@@ -17,6 +17,7 @@ from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.diagnose.searches.beside_typical import in_own_models
 from statorhom.diagnose.searches.refit_starts import cheap_starts, shared_by
 from statorhom.diagnose.searches.thorough import best_of_many
+from statorhom.diagnose.stages.study_model import StudyModel
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.library import look_alike
 
@@ -37,20 +38,22 @@ def look_alikes(
     """
     if not found or not isinstance(base.hypothesis, Hypothesis):
         return []
-    best, study = found[0], base.hypothesis.study
+    best = found[0]
     # where no more is left than noise it has not been sought thoroughly yet
     if best.adequacy_but_one <= WELL or nothing(base).adequacy > ADEQUATE:
         return []
-    later = {stage.name for stage in study.stages[1:]}
-    begun = cheap_starts(
-        base,
-        [
-            c
-            for c in candidates
-            if c.stage in later
-            and any(c.stage == own.stage and look_alike(c, own, study.files) for own in best.candidates)
-        ],
-    )
+    begun = cheap_starts(base, _taken_for(best, candidates, base.hypothesis.study))
     again = side_by_side(best_of_many, begun, shared_by(begun))
     near = [r for r in again if r is not None and r.objective < best.refit.objective + NEAR]
     return [e for e in in_own_models(near, counts) if e.log_evidence > best.log_evidence - NEAR_RIVAL]
+
+
+def _taken_for(best: Explanation, candidates: Sequence[Candidate], study: StudyModel) -> list[Candidate]:
+    """What looks like the lead on its own step; the first one's core has no other valleys."""
+    later = {stage.name for stage in study.stages[1:]}
+    leads = [c for c in best.candidates if c.stage in later]
+    return [
+        c
+        for c in candidates
+        if any(c.stage == lead.stage and look_alike(c, lead, study.files) for lead in leads)
+    ]
