@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from statorhom.physics.action import Action
-from statorhom.physics.library import all_candidates, library
+from statorhom.physics.library import all_candidates, library, look_alike
 from statorhom.study.study import StudyFiles, load_study
 
 CONTRACT = {
@@ -95,6 +95,22 @@ def test_every_confusion_is_with_an_effect_of_the_contract() -> None:
     for effect in library().values():
         assert effect.summary and effect.citation
         assert {c.effect for c in effect.confused_with} <= CONTRACT - {effect.name}
+
+
+@pytest.mark.parametrize(
+    ("effects", "confused"),
+    [
+        (("viscoelastic_winding", "end_winding_stiffness"), True),
+        (("loose_winding_mass", "end_winding_stiffness"), True),  # the other one alone says so
+        (("loose_winding_mass", "viscoelastic_winding"), False),
+        (("end_winding_stiffness", "end_winding_stiffness"), False),
+    ],
+)
+def test_two_look_alike_where_either_says_so(
+    files: StudyFiles, effects: tuple[str, str], confused: bool
+) -> None:
+    one, other = (next(c for c in all_candidates(files) if c.effect == effect) for effect in effects)
+    assert look_alike(one, other, files) == look_alike(other, one, files) == confused
 
 
 def test_candidates_of_a_chain(files: StudyFiles) -> None:
