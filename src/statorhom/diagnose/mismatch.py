@@ -30,8 +30,7 @@ def mismatch(base: Refit) -> Mismatch | None:
         key=lambda f: -abs(f.residual),
     )
     modes = tuple(dict.fromkeys(f.mode for f in odd if f.mode is not None))[:MOST_MODES]
-    lost = sum(f.lost and f.kind == "frequency" for f in odd)
-    said = _statement(worst, odd, lost) or _weighed(base) or _unremarkable(worst, features)
+    said = _statement(worst, odd) or _weighed(base) or _unremarkable(worst, features)
     return Mismatch(stage=tests[worst], test=worst, modes=modes, statement=said)
 
 
@@ -59,9 +58,11 @@ def _unremarkable(test: str, features: Sequence[Feature]) -> str:
     return f"{test}: no mode is far off, but all together are, frequencies by {rms:.1f} standard deviations (rms)"
 
 
-def _statement(test: str, odd: Sequence[Feature], lost: int) -> str:
+def _statement(test: str, odd: Sequence[Feature]) -> str:
     """Of what is remarkably off; empty where nothing is."""
-    parts = _frequencies([f for f in odd if f.kind == "frequency" and not f.lost])
+    frequencies = [f for f in odd if f.kind == "frequency"]
+    lost = sum(f.lost for f in frequencies)
+    parts = _frequencies([f for f in frequencies if not f.lost])
     parts += _of_modes(odd, ("split",), "doublet is", "doublets are", "split otherwise than predicted")
     if any(f.kind == "shift" for f in odd):
         parts.append("poles move from measuring plane to measuring plane")
