@@ -26,8 +26,12 @@ def factorize(matrix: sp.csr_array) -> Solve:
     return solve
 
 
-def symmetric_lu(matrix: sp.csr_array) -> SuperLU:
+def symmetric_lu(matrix: sp.csr_array, ordered: bool = False) -> SuperLU:
     """Sparse LU of a symmetric positive definite matrix (SuperLU without pivoting, minimum degree of A + Aᵀ).
+
+    Parameters
+    ----------
+    ordered : whether rows and columns are eliminated as they stand.
 
     Raises
     ------
@@ -38,7 +42,7 @@ def symmetric_lu(matrix: sp.csr_array) -> SuperLU:
         # by columns a symmetric matrix reads as it does by rows
         return splu(
             sp.csc_matrix((matrix.data, matrix.indices, matrix.indptr), shape=matrix.shape, copy=True),
-            permc_spec="MMD_AT_PLUS_A",
+            permc_spec="NATURAL" if ordered else "MMD_AT_PLUS_A",
             diag_pivot_thresh=0.0,
             options={"SymmetricMode": True},
         )

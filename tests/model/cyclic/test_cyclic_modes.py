@@ -10,7 +10,7 @@ from small_stators import MATERIALS, stator_mesh
 
 from statorhom.errors import SolverError
 from statorhom.model.affine import assemble
-from statorhom.model.cyclic.condensed import condensed, eliminated, modes_under, multiplied
+from statorhom.model.cyclic.condensed import condensed, counted, eliminated, modes_under, multiplied
 from statorhom.model.cyclic.half_pitch import columns, half_pitch, half_pitches, phases
 from statorhom.model.cyclic.modes import modes_of
 from statorhom.model.harmonic import all_orders, spaces_of
@@ -75,9 +75,21 @@ def test_the_number_of_modes_is_known_before_they_are(stator, hz):
     for part in stator.parts:
         pitch = half_pitch(part, stator.K, stator.M)
         mine = [i for i, s in enumerate(stator.spaces) if s.axial == part.axial]
-        a, b = (eliminated(pitch, family, _top(hz)) for family in (pitch.a, pitch.b))
+        shifted = [(family, eliminated(pitch, family, -_top(hz)).order) for family in (pitch.a, pitch.b)]
+        a, b = (counted(pitch, family, order, _top(hz)) for family, order in shifted)
         counts = modes_under(phases(pitch, tuple(stator.spaces[i] for i in mine)), a, b)
         np.testing.assert_array_equal(counts, [np.sum(stator.values[i] < _top(hz)) for i in mine])
+
+
+def test_what_one_factorization_leaves_on_the_slots_plane_is_what_solving_for_it_leaves(stator):
+    value = -0.1 * _top(TOP_HZ)
+    for part in stator.parts:
+        pitch = half_pitch(part, stator.K, stator.M)
+        for family in (pitch.a, pitch.b):
+            solved = eliminated(pitch, family, value)
+            left = counted(pitch, family, solved.order, value)
+            np.testing.assert_allclose(left.schur, solved.schur, atol=1e-12 * np.abs(solved.schur).max())
+            assert left.negative == 0
 
 
 def test_the_condensed_problems_multiply_and_solve_as_their_own_matrices_do(stator):

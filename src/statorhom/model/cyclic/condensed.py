@@ -23,6 +23,20 @@ BACKWARD_ERROR = 1e-10
 
 
 @dataclass(frozen=True, eq=False)
+class Counted:
+    """One of the two families of coordinates, eliminated for the number of modes alone.
+
+    Parameters
+    ----------
+    schur : (s, s) S_x.
+    negative : number of negative eigenvalues of Z_xx, None if the factorization cannot tell.
+    """
+
+    schur: np.ndarray
+    negative: int | None
+
+
+@dataclass(frozen=True, eq=False)
 class Eliminated:
     """One of the two families of coordinates, eliminated.
 
@@ -32,14 +46,17 @@ class Eliminated:
     coupling : (s, x) Z_sx.
     responses : (x, s) Z_xx⁻¹ Z_xs.
     schur : (s, s) S_x.
-    negative : number of negative eigenvalues of Z_xx, None if the factorization cannot tell.
     """
 
     lu: SuperLU
     coupling: sp.csr_array
     responses: np.ndarray
     schur: np.ndarray
-    negative: int | None
+
+    @property
+    def order(self) -> np.ndarray:
+        """The family's coordinates in the order of their elimination, (x,): what leaves few entries at any λ."""
+        return np.argsort(self.lu.perm_c)
 
     def sampled(self, weights: np.ndarray) -> np.ndarray:
         """Vectors (x, k) with covariance Z_xx⁻¹, which must be definite, from independent weights of unit variance."""
@@ -56,19 +73,33 @@ def eliminated(pitch: HalfPitch, family: np.ndarray, value: float) -> Eliminated
     lu = symmetric_lu(inner)
     responses = lu.solve(coupling.T.toarray())
     schur = slot[:, pitch.s].toarray() - coupling @ responses
-    return Eliminated(lu, coupling, responses, 0.5 * (schur + schur.T), _negative(inner, lu))
+    return Eliminated(lu, coupling, responses, 0.5 * (schur + schur.T))
 
 
-def _negative(matrix: sp.csr_array, lu: SuperLU) -> int | None:
-    """Number of negative eigenvalues, from the signs of the pivots."""
+def counted(pitch: HalfPitch, family: np.ndarray, order: np.ndarray, value: float) -> Counted:
+    """Eliminate the coordinates `family` of K - value M; one factorization with the slot's plane last tells all.
+
+    Parameters
+    ----------
+    order : (x,) in which the family is eliminated (`Eliminated.order`).
+    """
+    count, used = len(family), np.r_[family[order], pitch.s]
+    Z = sp.csr_array(pitch.K - value * pitch.M)[used][:, used]
+    lu = symmetric_lu(Z, ordered=True)
+    # what is left of the last coordinates when the first are gone
+    schur = (lu.L[count:, count:] @ lu.U[count:, count:]).toarray()
+    negative = int(np.count_nonzero(lu.U.diagonal()[:count] < 0)) if _trusted(Z, lu) else None
+    return Counted(0.5 * (schur + schur.T), negative)
+
+
+def _trusted(matrix: sp.csr_array, lu: SuperLU) -> bool:
+    """Whether the signs of the pivots are those of the eigenvalues."""
     if not np.array_equal(lu.perm_r, lu.perm_c):
-        return None
+        return False
     right = np.random.default_rng(0).standard_normal(matrix.shape[0])
     x = lu.solve(right)
     size = abs(matrix).sum(axis=0).max() * np.linalg.norm(x)
-    if not np.linalg.norm(matrix @ x - right) <= BACKWARD_ERROR * size:
-        return None
-    return int(np.count_nonzero(lu.U.diagonal() < 0))
+    return bool(np.linalg.norm(matrix @ x - right) <= BACKWARD_ERROR * size)
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +156,7 @@ def condensed(pitch: HalfPitch, phases: Phases, real: Eliminated, imaginary: Eli
     return Condensed(pitch, phases, real, imaginary, root)
 
 
-def modes_under(phases: Phases, real: Eliminated, imaginary: Eliminated) -> np.ndarray:
+def modes_under(phases: Phases, real: Counted, imaginary: Counted) -> np.ndarray:
     """Number of modes of every problem below λ, (p,); the factorizations must be able to tell."""
     assert real.negative is not None and imaginary.negative is not None
     parity = [space.parity for space in phases.spaces]
@@ -148,7 +179,7 @@ def multiplied(pitch: HalfPitch, phases: Phases, matrix: sp.csr_array, vectors: 
     return np.concatenate([real[pitch.a], imaginary[pitch.b], slot])
 
 
-def _schur(phases: Phases, real: Eliminated, imaginary: Eliminated) -> np.ndarray:
+def _schur(phases: Phases, real: Counted | Eliminated, imaginary: Counted | Eliminated) -> np.ndarray:
     """S_h of every problem, (p, s, s); coordinates that it has not are fixed by a stiffness of their own."""
     D1, D2 = phases.first.T, phases.second.T
     S = D1[:, :, None] * real.schur * D1[:, None] + D2[:, :, None] * imaginary.schur * D2[:, None]

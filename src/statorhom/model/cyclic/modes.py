@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import repeat
 
 import numpy as np
 
 from statorhom.errors import SolverError
 from statorhom.model.blas_threads import one_blas_thread
-from statorhom.model.cyclic.condensed import Eliminated, condensed, eliminated, modes_under
+from statorhom.model.cyclic.condensed import Eliminated, condensed, counted, eliminated, modes_under
 from statorhom.model.cyclic.half_pitch import HalfPitch, columns, phases
 from statorhom.model.cyclic.lanczos import largest
 from statorhom.model.eigen import SHIFT
@@ -62,8 +63,8 @@ def modes_of(
             groups.append(_Group(pitch, mine, tuple(spaces[i] for i in mine)))
     # the limit holds for all threads: entered by each, one would lift another's
     with one_blas_thread(), mapper(jobs) as run:
-        top, ends = _band(run, groups, top, most)
         starts = _levels(run, groups, -SHIFT * top)
+        top, ends = _band(run, groups, starts, top, most)
         batches = [
             batch for entry in zip(groups, starts, ends, strict=True) for batch in _batches(*entry, top, most)
         ]
@@ -89,11 +90,6 @@ class _Level:
     real: Eliminated
     imaginary: Eliminated
 
-    @property
-    def counts(self) -> bool:
-        """Whether the number of modes below can be told."""
-        return self.real.negative is not None and self.imaginary.negative is not None
-
 
 @dataclass(frozen=True, eq=False)
 class _End:
@@ -109,27 +105,35 @@ def _levels(run: Mapper, groups: Sequence[_Group], value: float) -> list[_Level]
     return [_Level(value, real, imaginary) for real, imaginary in zip(done[::2], done[1::2], strict=True)]
 
 
-def _band(run: Mapper, groups: Sequence[_Group], top: float, most: int | None) -> tuple[float, list[_End]]:
+def _band(
+    run: Mapper, groups: Sequence[_Group], starts: Sequence[_Level], top: float, most: int | None
+) -> tuple[float, list[_End]]:
     """Upper end of the band (λ), lowered as long as every problem holds the modes that are enough."""
-    ends = _counted(run, groups, top)
+    ends = _counted(run, groups, starts, top)
     while most is not None and min(end.counts.min() for end in ends) > 2 * most:
-        lower = _counted(run, groups, LOWER * top)
+        lower = _counted(run, groups, starts, LOWER * top)
         if min(end.counts.min() for end in lower) < most:
             break
         top, ends = LOWER * top, lower
     return top, ends
 
 
-def _counted(run: Mapper, groups: Sequence[_Group], top: float) -> list[_End]:
+def _counted(run: Mapper, groups: Sequence[_Group], starts: Sequence[_Level], top: float) -> list[_End]:
     """Number of modes up to the band's end, or a little above where it cannot be told there."""
+    halves = [
+        (group.pitch, family, known.order)
+        for group, start in zip(groups, starts, strict=True)
+        for family, known in ((group.pitch.a, start.real), (group.pitch.b, start.imaginary))
+    ]
     for trial in range(TRIALS):
-        levels = _levels(run, groups, top * (1 + trial * STEP))
-        if all(level.counts for level in levels):
+        value = top * (1 + trial * STEP)
+        done = list(run(counted, *zip(*halves, strict=True), repeat(value)))
+        if all(one.negative is not None for one in done):
             counts = run(
-                lambda entry: modes_under(phases(entry[0].pitch, entry[0].spaces), *entry[1]),
-                [(group, (level.real, level.imaginary)) for group, level in zip(groups, levels, strict=True)],
+                lambda entry: modes_under(phases(entry[0].pitch, entry[0].spaces), *entry[1:]),
+                list(zip(groups, done[::2], done[1::2], strict=True)),
             )
-            return [_End(level.value, count) for level, count in zip(levels, counts, strict=True)]
+            return [_End(value, count) for count in counts]
     raise SolverError("the modes of the band cannot be counted; check the materials")
 
 
