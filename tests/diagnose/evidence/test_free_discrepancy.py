@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -109,3 +110,10 @@ def test_what_no_discrepancy_is_of_costs_what_it_costs_the_declared_model(featur
     objective = feature.residual**2
     base: Refit[Any] = Refit(hypothesis, np.zeros(1), np.zeros((2, 1)), objective, objective)  # type: ignore[arg-type]
     assert base.log_evidence - 3 < discrepancy_evidence(base) < base.log_evidence
+
+
+def test_it_pays_for_what_the_model_is_not_sure_of_as_the_model_does() -> None:
+    fits = declared(np.array([3.0, -2.0, 4.0, 1.0, -5.0]))
+    unsure = replace(fits, doubt=7.0)
+    assert unsure.log_evidence == pytest.approx(fits.log_evidence - 7.0)
+    assert discrepancy_evidence(unsure) == pytest.approx(discrepancy_evidence(fits) - 7.0)

@@ -61,18 +61,18 @@ def test_without_a_rival_the_winner_is_stable() -> None:
     assert stability([one, one], 1) == 1.0  # type: ignore[list-item]
 
 
-def explanation(log_evidence: float, residuals: list[float]) -> SimpleNamespace:
+def explanation(log_evidence: float, residuals: list[float], doubt: float = 0.0) -> SimpleNamespace:
     """Of four modes and what densities can be, with one constant that none of them tells."""
     rows = [frozenset([("free", str(i))]) for i in range(4)] + [frozenset([WEIGHED])]
     hypothesis = SimpleNamespace(
         prior_weights=np.ones(1),
         missed=0.0,
         charges=lambda _: np.zeros(5),
-        features=lambda _: [SimpleNamespace(observed=row) for row in rows],
+        features=lambda _: [SimpleNamespace(observed=row, doubt=doubt) for row in rows],
         residuals=lambda _: np.array(residuals),
     )
     misfit = float(np.sum(np.square(residuals)))
-    refit = Refit(hypothesis, np.zeros(1), np.zeros((5, 1)), misfit, misfit)  # type: ignore[arg-type]
+    refit = Refit(hypothesis, np.zeros(1), np.zeros((5, 1)), misfit, misfit, 5 * doubt)  # type: ignore[arg-type]
     return SimpleNamespace(compared=None, refit=refit, log_evidence=log_evidence)
 
 
@@ -80,3 +80,12 @@ def test_a_rival_that_only_an_impossible_density_speaks_against_does_not_win() -
     best, none = explanation(-4.0, [1.0, 1.0, 1.0, 1.0, 1.0]), explanation(-200.0, [10.0] * 4 + [0.0])
     rival = explanation(-50.0, [0.1, 0.1, 0.1, 0.1, 10.0])
     assert stability([best, none, rival], 1) == 1.0  # type: ignore[list-item]
+
+
+def test_a_rival_that_is_sure_of_nothing_wins_no_draw() -> None:
+    """It leaves less of every mode, for it knows each of them less well by far."""
+    best, none = explanation(-2.5, [1.0] * 5), explanation(-200.0, [10.0] * 5)
+    rival = explanation(-15.0, [0.1] * 5, doubt=3.0)
+    assert stability([best, none, rival], 1) == 1.0  # type: ignore[list-item]
+    sure = explanation(-0.05, [0.1] * 5)
+    assert stability([best, none, sure], 1) < 0.8  # type: ignore[list-item]

@@ -106,6 +106,25 @@ def test_a_small_split_beside_large_ones_says_little_of_its_cause(recorded: bool
     assert residual_of_the_second(0.001) > 5.0
 
 
+@pytest.mark.parametrize("rows", [1, 2])
+def test_a_mode_that_the_mesh_hardly_shows_is_doubted_and_wide_valleys_doubt_all_alike(rows: int) -> None:
+    key, log_f = (2, 0, 0), float(np.log(1000.0))
+    modes = tuple(MeasuredMode(i, str(i), 1000.0, order=2, axial=0, frequency_sd_hz=0.1) for i in range(rows))
+    test = MeasuredTest(0, "t", "free", modes, False, ())
+    mode = PredictedMode(key, StatorMode(1000.0, 2, 0, "radial", 1.0, 2, 0, 0), log_f, 0j, 1e-3)
+
+    def doubt(correction: float, discrepancy: float) -> float:
+        error = ModelError(factors={key: 1 - correction})
+        return sum(
+            f.doubt for f in free_features(test, modes, (key,) * rows, {key: mode}, {}, error, discrepancy)
+        )
+
+    assert doubt(0.0, 0.0) == pytest.approx(0.0, abs=1e-9)
+    # the square of a tenth says 3 %, of which 5e-4 are usual
+    assert doubt(0.1, 0.0) == pytest.approx(np.log(0.03 / 5e-4), abs=0.1)
+    assert doubt(0.1, 0.03) == pytest.approx(0.5 * np.log(2.0), abs=0.05)
+
+
 MIXED = (2, 0, 0)
 
 

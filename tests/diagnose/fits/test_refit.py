@@ -45,7 +45,7 @@ class Valley:
 
     def features(self, z: np.ndarray) -> list[SimpleNamespace]:
         rows = zip(self.residuals(z), self.chances(z), strict=True)
-        return [SimpleNamespace(lost=False, residual=r, chance=c) for r, c in rows]
+        return [SimpleNamespace(lost=False, residual=r, chance=c, doubt=0.0) for r, c in rows]
 
 
 def found(worth: float) -> tuple[float, float, int]:
@@ -150,3 +150,13 @@ def test_a_refit_pays_for_modes_that_it_mixes_on_its_way() -> None:
     assert best.objective == pytest.approx(objective.min(), abs=0.05)
     assert best.z[0] == pytest.approx(z[objective.argmin()], rel=0.05)
     assert best.objective == refit_objective(Mixing(), best.z)  # type: ignore[arg-type]
+
+
+def test_what_a_model_is_not_sure_of_is_no_part_of_the_objective_but_of_the_evidence() -> None:
+    class Unsure(Valley):
+        def features(self, z: np.ndarray) -> list[SimpleNamespace]:
+            return [SimpleNamespace(**vars(f) | {"doubt": 2.0}) for f in super().features(z)]
+
+    sure, unsure = (refit(kind(), np.array([-3.0])) for kind in (Valley, Unsure))  # type: ignore[type-var]
+    assert unsure.objective == sure.objective
+    assert unsure.log_evidence == pytest.approx(sure.log_evidence - 4.0)

@@ -46,9 +46,15 @@ class Search:
         self.prices = {"arc": DEAR}
         self.actions = {"length": SimpleNamespace(dimensions=("length_mm",), supports={})}
         items = tuple(SimpleNamespace(name=n, fixed=False) for n in NAMES)
-        stages = tuple(SimpleNamespace(name=n) for n in ("stack", "wound", "baked"))
+        stages = tuple(
+            SimpleNamespace(name=n, tests=(SimpleNamespace(name=f"{n}-free"),))
+            for n in ("stack", "wound", "baked")
+        )
         study = SimpleNamespace(stages=stages, constants=SimpleNamespace(items=items))
-        hypothesis = SimpleNamespace(study=study, candidates=(), shared=())
+        self.doubts = {"wound-free": 0.0, "stack-free": 20.0}
+        hypothesis = SimpleNamespace(
+            study=study, candidates=(), shared=(), prior_weights=np.ones(4), features=self.features
+        )
         self.base: Any = SimpleNamespace(
             hypothesis=hypothesis, z=np.array([0.4, -2.0, 0.7, 0.1]), objective=400.0
         )
@@ -68,6 +74,11 @@ class Search:
             module, "explained", lambda r, _: explanation(-r.objective, label=r.hypothesis.label, refit=r)
         )
         monkeypatch.setattr(module, "sharpened", self.sharper)
+
+    def features(self, z: np.ndarray) -> list[Any]:
+        """Of a winding as it usually is the mesh is sure."""
+        known = {"wound-free": 0.0} if z[1] == 0.0 else {}
+        return [SimpleNamespace(test=test, doubt=doubt) for test, doubt in (self.doubts | known).items()]
 
     def model(self, hypothesis: Any, z: np.ndarray) -> Any:
         self.models.append(z)
@@ -125,6 +136,25 @@ def test_where_something_explains_the_misfit_nothing_is_sought(search: Search, a
     assert search.sought("soft", found=[explanation(-150.0, adequacy)]) == ([] if adequacy else ["soft"])
     search.adequacy = adequacy
     assert search.sought("soft") == ([] if adequacy else ["soft"])
+
+
+@pytest.mark.parametrize(("doubt", "sought"), [(5.0, []), (9.0, ["soft"])])
+def test_a_winding_that_explains_everything_by_saying_nothing_explains_too_little(
+    search: Search, doubt: float, sought: list[str]
+) -> None:
+    """So soft that the mesh is sure of none of its modes; z of -2 and 0.7 lose 2.2 more, and typical ones nothing."""
+    search.adequacy = 0.99
+    search.doubts["wound-free"] = doubt
+    assert search.sought("soft") == sought
+    assert len(search.models) == len(sought)
+
+
+def test_what_typical_materials_would_be_as_unsure_of_is_no_reason_to_look(search: Search) -> None:
+    search.adequacy = 0.99
+    search.doubts["wound-free"] = 9.0
+    search.base.hypothesis.features = lambda _: [SimpleNamespace(test="wound-free", doubt=9.0)]
+    assert search.sought("soft") == []
+    assert len(search.models) == 1
 
 
 def test_what_is_no_better_is_not_taken(search: Search) -> None:

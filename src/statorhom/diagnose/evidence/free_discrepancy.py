@@ -54,7 +54,7 @@ class _Linear:
     deviations : (n,) in standard deviations; where no discrepancy is thought of, the residuals as they count.
     jacobian : (n, constants) of these.
     z, prior_weights : optimum and its prior's precision.
-    charge : as of the hypothesis.
+    charge, doubt : as of the hypothesis and of the refit.
     """
 
     features: Sequence[Feature]
@@ -63,6 +63,7 @@ class _Linear:
     z: FloatArray
     prior_weights: FloatArray
     charge: float
+    doubt: float
 
     @classmethod
     def of(cls, base: Refit[AnyHypothesis]) -> _Linear:
@@ -72,7 +73,7 @@ class _Linear:
         steepness = np.array([f.steepness if _may_be_off(f) else 1.0 for f in features])
         jacobian = base.jacobian / np.maximum(steepness, LEAST_STEEPNESS)[:, None]
         weights, charge = base.hypothesis.prior_weights, base.hypothesis.charge(base.z)
-        return cls(features, np.array(deviations), jacobian, base.z, weights, charge)
+        return cls(features, np.array(deviations), jacobian, base.z, weights, charge, base.doubt)
 
     @property
     def _kinds(self) -> list[str]:
@@ -101,7 +102,8 @@ class _Linear:
         z = self.z + step
         objective = sum(map(partial(_cost, amplitudes), self.features, left)) + self.charge
         objective += float(self.prior_weights @ z**2)
-        return float(-0.5 * objective + np.sum(np.log(weights)) + log_volume(information, self.prior_weights))
+        likelihood = -0.5 * objective + float(np.sum(np.log(weights))) - self.doubt
+        return likelihood + log_volume(information, self.prior_weights)
 
 
 def _cost(amplitudes: Mapping[str, float], feature: Feature, left: float) -> float:

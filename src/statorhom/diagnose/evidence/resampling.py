@@ -36,7 +36,9 @@ def stability(explanations: Sequence[Explanation], seed: int) -> float:
     if len(explanations) < 3:
         return 1.0
     refits = [e.compared or e.refit for e in explanations]
-    observed = [[f.observed for f in r.hypothesis.features(r.z)] for r in refits]
+    features = [r.hypothesis.features(r.z) for r in refits]
+    observed = [[f.observed for f in own] for own in features]
+    doubts = [np.array([f.doubt for f in own]) for own in features]
     residuals = [r.hypothesis.residuals(r.z) for r in refits]
     units = _units([rows for part in observed for rows in part if rows != KNOWN])
     rng = np.random.default_rng(seed)
@@ -46,10 +48,11 @@ def stability(explanations: Sequence[Explanation], seed: int) -> float:
         chosen = KNOWN.union(*(units[i] for i in kept))
         noise, width = FACTORS[draw % 3], FACTORS[(draw // 3) % 3]
         scores = []
-        for e, own, r, left in zip(explanations, observed, refits, residuals, strict=True):
+        for e, own, r, left, doubt in zip(explanations, observed, refits, residuals, doubts, strict=True):
             rows = np.array([one <= chosen for one in own])
             # an explanation's features may differ in number; what it says beside them is common to all
-            scores.append(resampled_evidence(r, left, rows, noise, width) + e.log_evidence - r.log_evidence)
+            beside = e.log_evidence - r.log_evidence - float(doubt[rows].sum())
+            scores.append(resampled_evidence(r, left, rows, noise, width) + beside)
         outcomes.append(wins(scores))
     counted = [won for won in outcomes if won is not None]
     return float(np.mean(counted)) if counted else 1.0

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import hypot, log, sqrt, tanh
+from typing import NamedTuple
 
 import numpy as np
 
@@ -66,7 +67,7 @@ def free_features(
         if key is None:
             found += lost_lines(test, rows, modes, typical)
         elif key in predicted:
-            own = hypot(own_sd(error, key), discrepancy)
+            own = _Own(hypot(own_sd(error, key), discrepancy), hypot(OWN, discrepancy))
             ways = [
                 _mode_features(test, rows, mode, scatter, own, TYPICAL_PART * typical)
                 for mode in predicted[key].called
@@ -113,12 +114,40 @@ def measured_sd(mode: MeasuredMode) -> float:
     return DEFAULT_RELATIVE_SD if mode.frequency_sd_hz is None else mode.frequency_sd_hz / mode.frequency_hz
 
 
+class _Own(NamedTuple):
+    """Relative model error of a mode that others do not share, and the least that any has."""
+
+    sd: float
+    least: float
+
+
+def _frequency(
+    test: MeasuredTest,
+    rows: tuple[str, ...],
+    predicted: PredictedMode,
+    values: tuple[float, float],
+    sd: float,
+    own: _Own,
+) -> Feature:
+    """Of rows of a mode; `values` are measured and predicted ln f, `sd` that of the measurement."""
+    return Feature(
+        "frequency",
+        test.name,
+        predicted.key,
+        *values,
+        hypot(sd, own.sd),
+        rows=rows,
+        chance=predicted.chance,
+        least=hypot(sd, own.least),
+    )
+
+
 def _mode_features(
     test: MeasuredTest,
     rows: Sequence[MeasuredMode],
     predicted: PredictedMode,
     scatter: Mapping[int, complex],
-    own: float,
+    own: _Own,
     shape: float,
 ) -> list[Feature]:
     """Of one mode; `own` and `shape` are what the mesh leaves open of its frequency, and a cause's shape of a split."""
@@ -136,12 +165,7 @@ def _mode_features(
     if unresolved:
         # images of one mode, or a doublet whose angles do not show: somewhere between
         sd = hypot(sd, log(high.frequency_hz / low.frequency_hz) / 2)
-    whole = hypot(sd, own)
-    found = [
-        Feature(
-            "frequency", test.name, key, mean, predicted.log_f, whole, rows=labels, chance=predicted.chance
-        )
-    ]
+    found = [_frequency(test, labels, predicted, (mean, predicted.log_f), sd, own)]
     if unresolved:
         return found
     if pairing is not None:
@@ -172,25 +196,13 @@ def _typical_split(test: MeasuredTest, doublets: Sequence[Sequence[MeasuredMode]
 
 
 def _single(
-    test: MeasuredTest, row: MeasuredMode, predicted: PredictedMode, split: complex, own: float
+    test: MeasuredTest, row: MeasuredMode, predicted: PredictedMode, split: complex, own: _Own
 ) -> list[Feature]:
     """One line of a doublet: not resolved, or its other line was missed."""
     log_f, measured = predicted.log_f, log(row.frequency_hz)
-    sd = hypot(measured_sd(row), own)
-    own_row = (row.label,)
+    sd, own_row = measured_sd(row), (row.label,)
     if predicted.multiplicity == 1:
-        return [
-            Feature(
-                "frequency",
-                test.name,
-                predicted.key,
-                measured,
-                log_f,
-                sd,
-                rows=own_row,
-                chance=predicted.chance,
-            )
-        ]
+        return [_frequency(test, own_row, predicted, (measured, log_f), sd, own)]
     # where the effect parts the two lines, it is one of them, a quarter of the split of λ to either side of the mean
     away = abs(predicted.split) / 4 if abs(predicted.split) > (row.loss_factor or 0.01) else 0.0
     log_f += away * tanh((measured - log_f) / (0.3 * away + 1e-9))
@@ -200,9 +212,7 @@ def _single(
     silence = Silence(abs(split), width, most, parts)
     unresolved = float(silence.residual())
     return [
-        Feature(
-            "frequency", test.name, predicted.key, measured, log_f, sd, rows=own_row, chance=predicted.chance
-        ),
+        _frequency(test, own_row, predicted, (measured, log_f), sd, own),
         Feature("split", test.name, predicted.key, 0.0, unresolved, 1.0, rows=own_row, silence=silence),
     ]
 

@@ -41,6 +41,8 @@ class Refit(Generic[H]):
     jacobian : of the residuals there.
     misfit : sum of squared residuals.
     objective : with the prior.
+    doubt : what the likelihood loses because the model is not sure of frequencies (`Feature.doubt`); it is the same
+        all over a model, so that no refit has to think of it.
     """
 
     hypothesis: H
@@ -48,6 +50,7 @@ class Refit(Generic[H]):
     jacobian: FloatArray
     misfit: float
     objective: float
+    doubt: float = 0.0
 
     @property
     def covariance(self) -> FloatArray:
@@ -58,7 +61,7 @@ class Refit(Generic[H]):
     def log_evidence(self) -> float:
         """Laplace's, up to what all hypotheses share."""
         weights = self.hypothesis.prior_weights
-        return -0.5 * self.objective + log_volume(self.jacobian.T @ self.jacobian, weights)
+        return -0.5 * self.objective - self.doubt + log_volume(self.jacobian.T @ self.jacobian, weights)
 
 
 def covariance_of(jacobian: FloatArray, weights: FloatArray) -> FloatArray:
@@ -96,12 +99,14 @@ class _Point:
     z : the point.
     residuals, charges : their squares are in it.
     objective : with prior and missed modes.
+    doubt : of the features.
     """
 
     z: FloatArray
     residuals: FloatArray
     charges: FloatArray
     objective: float
+    doubt: float
 
     @classmethod
     def of(cls, hypothesis: AnyHypothesis, z: FloatArray) -> _Point:
@@ -109,7 +114,7 @@ class _Point:
         features = hypothesis.features(z)
         residuals, charges = np.array([f.residual for f in features]), charges_of(features)
         own = residuals @ residuals + charges @ charges + np.sum(hypothesis.prior_weights * z**2)
-        return cls(z, residuals, charges, float(own) + hypothesis.missed)
+        return cls(z, residuals, charges, float(own) + hypothesis.missed, sum(f.doubt for f in features))
 
 
 def refit(hypothesis: _H, start: FloatArray, rounds: int = ROUNDS, worth: float = np.inf) -> Refit[_H]:
@@ -151,7 +156,12 @@ def evaluated(hypothesis: _H, z: FloatArray) -> Refit[_H]:
     """
     paired = hypothesis.paired(z)
     here = _Point.of(paired, z)
-    return Refit(paired, z, jacobian(paired, z), float(here.residuals @ here.residuals), here.objective)
+    return _refit_at(paired, here, jacobian(paired, z))
+
+
+def _refit_at(hypothesis: _H, here: _Point, J: FloatArray) -> Refit[_H]:
+    misfit = float(here.residuals @ here.residuals)
+    return Refit(hypothesis, here.z, J, misfit, here.objective, here.doubt)
 
 
 def refit_objective(hypothesis: AnyHypothesis, z: FloatArray) -> float:
@@ -199,7 +209,7 @@ def _polished(hypothesis: _H, z: FloatArray, worth: float = np.inf) -> Refit[_H]
         J, C = jacobian(hypothesis, here.z), charge_slopes(hypothesis, here.z, here.charges)
         if gain < SETTLED:
             break
-    return Refit(hypothesis, here.z, J, float(here.residuals @ here.residuals), here.objective)
+    return _refit_at(hypothesis, here, J)
 
 
 def _step(H: FloatArray, gradient: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import tanh
+from math import log, tanh
 
 import numpy as np
 
@@ -56,6 +56,7 @@ class Feature:
     rows : labels of the measured modes that it is of; empty where it is of none, or they are named by the key alone.
     chance : of the way in which modes are called by its name (`PredictedMode.called`), told with its frequency.
     silence : of a split of which a single line was measured.
+    least : `sd` where the model is as exact as models are at best; 0 where that is nothing to tell.
     """
 
     kind: str
@@ -68,6 +69,7 @@ class Feature:
     rows: tuple[str, ...] = ()
     silence: Silence | None = None
     chance: float = 1.0
+    least: float = 0.0
 
     @property
     def residual(self) -> float:
@@ -87,6 +89,14 @@ class Feature:
     def deviation(self) -> float:
         """The same as it is."""
         return (self.measured - self.predicted) / self.sd
+
+    @property
+    def doubt(self) -> float:
+        """What a normal density loses because the model is not sure: ln of the standard deviation over the least one.
+
+        Without it a model would explain a frequency by not knowing it.
+        """
+        return 0.0 if self.lost or self.least == 0.0 else max(0.0, log(self.sd / self.least))
 
     @property
     def stray(self) -> bool:

@@ -3,6 +3,9 @@
 Without it the declared model may have fled: a soft end winding was a whole winding a tenth as stiff, with most modes
 without a partner. Beside that nothing explains anything, and in its basis the right winding would fit no better. So
 each step is solved anew with typical materials, and the effects on it are tried with materials all over the prior.
+
+It may also have fled to where it explains everything: a winding so soft that no mesh shows its modes well is sure of
+none of them. There is nothing left to explain then, and only the evidence tells that it says nothing.
 """
 
 from __future__ import annotations
@@ -10,6 +13,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
+import numpy as np
+
+from statorhom.diagnose.evidence.decision import OVER_ADEQUATE
 from statorhom.diagnose.fits.explanations import ADEQUATE, Explanation, explained, nothing
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit
@@ -18,6 +24,8 @@ from statorhom.diagnose.searches.refit_starts import Start, cheap_starts, first_
 from statorhom.diagnose.searches.sharper import sharpened
 from statorhom.diagnose.searches.single_effects import MOSTLY, optima_elsewhere
 from statorhom.diagnose.searches.typical_materials import with_typical_materials
+from statorhom.diagnose.stages.constants import new_constants
+from statorhom.diagnose.stages.stage_model import StageModel
 from statorhom.physics.candidate import Candidate
 
 OWN_MODELS = 3  # of the best that are compared in models of their own
@@ -41,23 +49,40 @@ def beside_typical_materials(
     enough = max(best.adequacy_but_one, none.adequacy_but_one) > ADEQUATE
     # what explains most of the misfit where the declared model stands says that it belongs there
     leads = bool(found) and best.refit.objective < MOSTLY * base.objective
-    if enough or leads or not isinstance(base.hypothesis, Hypothesis):
+    if leads or not isinstance(base.hypothesis, Hypothesis):
         return []
-    begun = [
-        start for stage in base.hypothesis.study.stages for start in _starts(base, stage.name, candidates)
-    ]
+    least = OVER_ADEQUATE if enough else -np.inf
+    stages = base.hypothesis.study.stages
+    begun = [start for stage in stages for start in _starts(base, stage, candidates, least)]
     again = side_by_side(_best_anywhere, begun, shared_by(begun))
     own = in_own_models([r for r in again if r is not None], counts)
     return own if own and own[0].log_evidence > best.log_evidence else []
 
 
-def _starts(base: Refit, stage: str, candidates: Sequence[Candidate]) -> list[Start]:
-    """A step's effects that cost little, in the model of its typical materials."""
-    cheap = cheap_starts(base, [c for c in candidates if c.stage == stage])
-    typical = with_typical_materials(base, stage) if cheap else None
-    if typical is None:
+def _starts(
+    base: Refit[Hypothesis], stage: StageModel, candidates: Sequence[Candidate], least: float
+) -> list[Start]:
+    """A step's effects that cost little, in the model of its typical materials.
+
+    Parameters
+    ----------
+    least : log evidence that typical materials have to gain, to first order, if they explain as much.
+    """
+    cheap = cheap_starts(base, [c for c in candidates if c.stage == stage.name])
+    # a typical model takes seconds
+    if not cheap or (loss := _loss(base, stage)) <= least:
+        return []
+    typical = with_typical_materials(base, stage.name)
+    if typical is None or loss - _loss(typical, stage) <= least:
         return []
     return [first_start(typical, start.hypothesis.candidates[-1]) for start in cheap]
+
+
+def _loss(of: Refit[Hypothesis], stage: StageModel) -> float:
+    """What the evidence loses by how unusual a step's own materials are, and by how little is known of its modes."""
+    own, tests = new_constants(of.hypothesis.study.constants, stage.name), {t.name for t in stage.tests}
+    unusual = 0.5 * float(of.hypothesis.prior_weights[own] @ of.z[own] ** 2)
+    return unusual + sum(f.doubt for f in of.hypothesis.features(of.z) if f.test in tests)
 
 
 def _best_anywhere(start: Start) -> Refit | None:
