@@ -10,7 +10,13 @@ import pytest
 
 from statorhom.conceal.breaks import Wave
 from statorhom.conceal.scatter import scatter
-from statorhom.diagnose.features.mode_features import SCATTER_SD, free_features, own_sd, shift_features
+from statorhom.diagnose.features.mode_features import (
+    SCATTER_SD,
+    doubt_by,
+    free_features,
+    own_sd,
+    shift_features,
+)
 from statorhom.diagnose.fits.derivatives import slopes_of
 from statorhom.diagnose.measured.feature import LOST, held_down
 from statorhom.diagnose.measured.measured_test import MeasuredSplit, MeasuredTest, PlaneShifts
@@ -123,6 +129,20 @@ def test_a_mode_that_the_mesh_hardly_shows_is_doubted_and_wide_valleys_doubt_all
     # the square of a tenth says 3 %, of which 5e-4 are usual
     assert doubt(0.1, 0.0) == pytest.approx(np.log(0.03 / 5e-4), abs=0.1)
     assert doubt(0.1, 0.03) == pytest.approx(0.5 * np.log(2.0), abs=0.05)
+
+
+@pytest.mark.parametrize("correction", [0.0, 0.02, 0.1])
+def test_what_another_mesh_error_would_leave_open_is_what_features_with_it_say(correction: float) -> None:
+    key, log_f = (2, 0, 0), float(np.log(1000.0))
+    row = MeasuredMode(0, "0", 1000.0, order=2, axial=0, frequency_sd_hz=0.7)
+    test = MeasuredTest(0, "t", "free", (row,), False, ())
+    predicted = {key: PredictedMode(key, StatorMode(1000.0, 2, 0, "radial", 1.0, 1, 0, 0), log_f, 0j, 1e-3)}
+    one, other = (ModelError(factors={key: 1 - part}) for part in (0.05, correction))
+    (before,), (after,) = (
+        free_features(test, (row,), (key,), predicted, {}, error) for error in (one, other)
+    )
+    assert doubt_by(before, other) == pytest.approx(after.doubt, abs=1e-9)
+    assert doubt_by(before, one) == pytest.approx(before.doubt)
 
 
 MIXED = (2, 0, 0)

@@ -15,6 +15,7 @@ from statorhom.diagnose.searches import single_effects as effects
 from statorhom.diagnose.searches import typical_materials as typical
 from statorhom.diagnose.searches.refit_starts import CHEAP, DEAR
 from statorhom.errors import SolverError
+from statorhom.study.study_file import FREE
 
 # of a stack, and of the winding
 NAMES = ("stack:lamination.E_p_pa", "wound:winding.E_p_pa", "wound:winding.nu_p", "wound:mass_kg")
@@ -46,12 +47,14 @@ class Search:
         self.prices = {"arc": DEAR}
         self.actions = {"length": SimpleNamespace(dimensions=("length_mm",), supports={})}
         items = tuple(SimpleNamespace(name=n, fixed=False) for n in NAMES)
+        self.typical = 0.0  # what a typical winding's mesh would be unsure of
         stages = tuple(
-            SimpleNamespace(name=n, tests=(SimpleNamespace(name=f"{n}-free"),))
+            SimpleNamespace(name=n, tests=(SimpleNamespace(name=f"{n}-free", support=FREE),), error=n)
             for n in ("stack", "wound", "baked")
         )
         study = SimpleNamespace(stages=stages, constants=SimpleNamespace(items=items))
         self.doubts = {"wound-free": 0.0, "stack-free": 20.0}
+        self.residual = 0.5
         hypothesis = SimpleNamespace(
             study=study, candidates=(), shared=(), prior_weights=np.ones(4), features=self.features
         )
@@ -74,11 +77,11 @@ class Search:
             module, "explained", lambda r, _: explanation(-r.objective, label=r.hypothesis.label, refit=r)
         )
         monkeypatch.setattr(module, "sharpened", self.sharper)
+        monkeypatch.setattr(module, "doubt_by", lambda *_: self.typical)
 
-    def features(self, z: np.ndarray) -> list[Any]:
-        """Of a winding as it usually is the mesh is sure."""
-        known = {"wound-free": 0.0} if z[1] == 0.0 else {}
-        return [SimpleNamespace(test=test, doubt=doubt) for test, doubt in (self.doubts | known).items()]
+    def features(self, _: np.ndarray) -> list[Any]:
+        told = {"kind": "frequency", "residual": self.residual}
+        return [SimpleNamespace(test=test, doubt=doubt, **told) for test, doubt in self.doubts.items()]
 
     def model(self, hypothesis: Any, z: np.ndarray) -> Any:
         self.models.append(z)
@@ -138,11 +141,11 @@ def test_where_something_explains_the_misfit_nothing_is_sought(search: Search, a
     assert search.sought("soft") == ([] if adequacy else ["soft"])
 
 
-@pytest.mark.parametrize(("doubt", "sought"), [(5.0, []), (9.0, ["soft"])])
+@pytest.mark.parametrize(("doubt", "sought"), [(2.0, []), (4.0, ["soft"])])
 def test_a_winding_that_explains_everything_by_saying_nothing_explains_too_little(
     search: Search, doubt: float, sought: list[str]
 ) -> None:
-    """So soft that the mesh is sure of none of its modes; z of -2 and 0.7 lose 2.2 more, and typical ones nothing."""
+    """So soft that the mesh is sure of none of its modes; z of -2 and 0.7 lose 2.2 more, and a stack has not fled."""
     search.adequacy = 0.99
     search.doubts["wound-free"] = doubt
     assert search.sought("soft") == sought
@@ -151,10 +154,16 @@ def test_a_winding_that_explains_everything_by_saying_nothing_explains_too_littl
 
 def test_what_typical_materials_would_be_as_unsure_of_is_no_reason_to_look(search: Search) -> None:
     search.adequacy = 0.99
-    search.doubts["wound-free"] = 9.0
-    search.base.hypothesis.features = lambda _: [SimpleNamespace(test="wound-free", doubt=9.0)]
+    search.doubts["wound-free"], search.typical = 4.0, 3.0
     assert search.sought("soft") == []
     assert len(search.models) == 1
+
+
+def test_what_is_left_of_frequencies_beyond_noise_is_one(search: Search) -> None:
+    search.adequacy, search.residual = 0.02, 3.0  # 4 above what noise leaves
+    assert search.sought("soft") == ["soft"]
+    search.residual = 1.0
+    assert search.sought("soft") == []
 
 
 def test_what_is_no_better_is_not_taken(search: Search) -> None:

@@ -109,6 +109,14 @@ def own_sd(error: ModelError, key: ModeKey) -> float:
     return hypot(OWN, OWN_PART * correction, OWN_SQUARE * correction**2, error.borrowed(key), alone)
 
 
+def doubt_by(frequency: Feature, error: ModelError) -> float:
+    """`Feature.doubt` of a free mode's frequency if these were the mesh's factors."""
+    if frequency.lost or frequency.key is None:
+        return 0.0
+    ratio = own_sd(error, frequency.key) / frequency.least
+    return 0.5 * log(max(1.0, 1.0 + ratio**2 - (OWN / frequency.least) ** 2))
+
+
 def measured_sd(mode: MeasuredMode) -> float:
     """Relative standard deviation of a measured frequency."""
     return DEFAULT_RELATIVE_SD if mode.frequency_sd_hz is None else mode.frequency_sd_hz / mode.frequency_hz

@@ -15,7 +15,8 @@ from functools import partial
 
 import numpy as np
 
-from statorhom.diagnose.evidence.decision import OVER_ADEQUATE
+from statorhom.diagnose.evidence.decision import OVER_NOTHING
+from statorhom.diagnose.features.mode_features import doubt_by
 from statorhom.diagnose.fits.explanations import ADEQUATE, Explanation, explained, nothing
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit
@@ -26,7 +27,9 @@ from statorhom.diagnose.searches.single_effects import MOSTLY, optima_elsewhere
 from statorhom.diagnose.searches.typical_materials import with_typical_materials
 from statorhom.diagnose.stages.constants import new_constants
 from statorhom.diagnose.stages.stage_model import StageModel
+from statorhom.identify.residuals.model_error import ModelError
 from statorhom.physics.candidate import Candidate
+from statorhom.study.study_file import FREE
 
 OWN_MODELS = 3  # of the best that are compared in models of their own
 NEAR = 60.0  # of the objective: what does not come so near to the best gets none
@@ -51,8 +54,10 @@ def beside_typical_materials(
     leads = bool(found) and best.refit.objective < MOSTLY * base.objective
     if leads or not isinstance(base.hypothesis, Hypothesis):
         return []
-    least = OVER_ADEQUATE if enough else -np.inf
-    stages = base.hypothesis.study.stages
+    # sheets are known too well to flee
+    stages, least = base.hypothesis.study.stages, -np.inf
+    if enough:
+        stages, least = stages[1:], OVER_NOTHING
     begun = [start for stage in stages for start in _starts(base, stage, candidates, least)]
     again = side_by_side(_best_anywhere, begun, shared_by(begun))
     own = in_own_models([r for r in again if r is not None], counts)
@@ -70,19 +75,34 @@ def _starts(
     """
     cheap = cheap_starts(base, [c for c in candidates if c.stage == stage.name])
     # a typical model takes seconds
-    if not cheap or (loss := _loss(base, stage)) <= least:
+    if not cheap or _loss(base, stage) <= least:
         return []
     typical = with_typical_materials(base, stage.name)
-    if typical is None or loss - _loss(typical, stage) <= least:
+    if typical is None or _loss(base, stage, _same_stage(typical, stage).error) <= least:
         return []
     return [first_start(typical, start.hypothesis.candidates[-1]) for start in cheap]
 
 
-def _loss(of: Refit[Hypothesis], stage: StageModel) -> float:
-    """What the evidence loses by how unusual a step's own materials are, and by how little is known of its modes."""
-    own, tests = new_constants(of.hypothesis.study.constants, stage.name), {t.name for t in stage.tests}
+def _loss(of: Refit[Hypothesis], stage: StageModel, typical: ModelError | None = None) -> float:
+    """Log evidence that a step's own materials lose against typical ones that explain its free frequencies.
+
+    They are unusual, they leave more than noise does, and the mesh may be less sure of their modes.
+
+    Parameters
+    ----------
+    of, stage : the declared model, and the step.
+    typical : the mesh's error with typical materials; one that is sure of every mode by default.
+    """
+    own = new_constants(of.hypothesis.study.constants, stage.name)
+    free = {t.name for t in stage.tests if t.support == FREE}
     unusual = 0.5 * float(of.hypothesis.prior_weights[own] @ of.z[own] ** 2)
-    return unusual + sum(f.doubt for f in of.hypothesis.features(of.z) if f.test in tests)
+    seen = [f for f in of.hypothesis.features(of.z) if f.test in free and f.kind == "frequency"]
+    left = sum(0.5 * max(0.0, f.residual**2 - 1.0) for f in seen)
+    return unusual + left + sum(f.doubt - (0.0 if typical is None else doubt_by(f, typical)) for f in seen)
+
+
+def _same_stage(of: Refit[Hypothesis], stage: StageModel) -> StageModel:
+    return next(s for s in of.hypothesis.study.stages if s.name == stage.name)
 
 
 def _best_anywhere(start: Start) -> Refit | None:
