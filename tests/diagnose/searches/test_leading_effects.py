@@ -17,7 +17,11 @@ from statorhom.diagnose.searches.leading_effects import leading_effects
 def base(log_evidence: float, objective: float = 1000.0, constants: int = 2) -> Any:
     hypothesis = SimpleNamespace(constants=constants)
     fit = SimpleNamespace(
-        log_evidence=log_evidence, objective=objective, hypothesis=hypothesis, z=[0.0] * constants
+        log_evidence=log_evidence,
+        objective=objective,
+        cost=objective,
+        hypothesis=hypothesis,
+        z=[0.0] * constants,
     )
     return SimpleNamespace(free=fit, refit=fit, valleys=())
 
@@ -161,15 +165,21 @@ def test_what_only_stood_in_for_the_deeper_valley_has_rivals_there(monkeypatch: 
     assert found.found == (suspension, bore)
 
 
-def sought_again(monkeypatch: pytest.MonkeyPatch, without_effect: float, adequacy: float = 0.0) -> Any:
+def sought_again(
+    monkeypatch: pytest.MonkeyPatch, without_effect: float, adequacy: float = 0.0, doubt: float = 0.0
+) -> Any:
     """The declared model from an explanation's constants, whose refit without the effect ends at an objective."""
     monkeypatch.setattr(again, "blank", lambda hypothesis, _: hypothesis)
     monkeypatch.setattr(
-        again, "refitted", lambda h, z: SimpleNamespace(objective=without_effect, hypothesis=h, z=z)
+        again,
+        "refitted",
+        lambda h, z: SimpleNamespace(
+            objective=without_effect, cost=without_effect + 2 * doubt, hypothesis=h, z=z
+        ),
     )
     monkeypatch.setattr(again, "nothing", lambda refit: SimpleNamespace(refit=refit))
     monkeypatch.setattr(again, "sharpened", lambda e: e)
-    fit = SimpleNamespace(hypothesis=SimpleNamespace(study=None), z=[1.0, 2.0, 3.0], objective=30.0)
+    fit = SimpleNamespace(hypothesis=SimpleNamespace(study=None), z=[1.0, 2.0, 3.0], cost=30.0)
     found: Any = [SimpleNamespace(refit=fit, adequacy_but_one=adequacy)]
     monkeypatch.setattr(
         again,
@@ -191,6 +201,11 @@ def test_the_declared_model_stays_where_an_explanation_needs_its_effect(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     assert sought_again(monkeypatch, 990.0) is None
+
+
+def test_a_valley_that_says_nothing_is_no_deeper_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert sought_again(monkeypatch, 960.0) is not None
+    assert sought_again(monkeypatch, 960.0, doubt=15.0) is None
 
 
 def test_an_explanation_that_is_beyond_doubt_asks_for_no_other_valley(

@@ -31,7 +31,7 @@ class Hypothetical:
 
 def found_at(z: np.ndarray, objective: float) -> Any:
     study = SimpleNamespace(constants=SimpleNamespace(items=(KNOWN, VAGUE, RATIO)), stages=())
-    return SimpleNamespace(hypothesis=Hypothetical(study), z=z, objective=objective)
+    return SimpleNamespace(hypothesis=Hypothetical(study), z=z, objective=objective, cost=objective)
 
 
 @pytest.mark.parametrize(("there", "objective"), [(40.0, 40.0), (99.0, 100.0)])

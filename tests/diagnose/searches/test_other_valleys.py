@@ -19,7 +19,7 @@ LEFT = {(1.0, 0.5): 240.0, (1.0, 1.8): 127.0, (2.0, 0.5): 168.0, (2.0, 1.8): 50.
 
 def refit(objective: float, z: Any = ()) -> Any:
     hypothesis = SimpleNamespace(candidates=("gradient",), study=None, shared=())
-    return SimpleNamespace(objective=objective, z=z, hypothesis=hypothesis)
+    return SimpleNamespace(objective=objective, cost=objective, z=z, hypothesis=hypothesis)
 
 
 @pytest.fixture

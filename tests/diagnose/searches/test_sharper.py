@@ -75,7 +75,9 @@ def test_a_rival_s_arc_is_solved_as_it_is_alone(
 ) -> None:
     """Each arc that is solved takes as long as all else."""
     asked: list[tuple[float, ...]] = []
-    refit: Any = SimpleNamespace(hypothesis=SimpleNamespace(features=lambda _: []), z=None, objective=20.0)
+    refit: Any = SimpleNamespace(
+        hypothesis=SimpleNamespace(features=lambda _: []), z=None, objective=20.0, cost=20.0
+    )
 
     def in_its_own_model(*_: Any, around: tuple[float, ...]) -> None:
         asked.append(around)
@@ -93,7 +95,8 @@ def models_right_at_two_alone(monkeypatch: pytest.MonkeyPatch, lead: float) -> N
 
     def refitted(model: Any, _: Any) -> Any:
         away = model.reference - 2.0
-        return SimpleNamespace(hypothesis=model, z=2.0 + lead * away, objective=20.0 + 10.0 * abs(away))
+        left = 20.0 + 10.0 * abs(away)
+        return SimpleNamespace(hypothesis=model, z=2.0 + lead * away, objective=left, cost=left)
 
     def there(model: Any, z: float) -> float:
         best = refitted(model, None)
@@ -122,7 +125,7 @@ def test_what_two_models_lead_past_lies_between_them(
 ) -> None:
     """A pressure of 0.15 was 0.12 at an E_z of 141 GPa, whose model said 0.17 at 123 GPa, and that one's the first."""
     models_right_at_two_alone(monkeypatch, lead)
-    begun: Any = SimpleNamespace(hypothesis=None, z=3.0, objective=objective)
+    begun: Any = SimpleNamespace(hypothesis=None, z=3.0, objective=objective, cost=objective)
     assert module._sharpened(Explanation((), begun, 0.0)).refit.z == pytest.approx(found)
 
 
@@ -135,5 +138,5 @@ def test_between_two_models_may_lie_no_stator(monkeypatch: pytest.MonkeyPatch) -
         return SimpleNamespace(reference=z)
 
     monkeypatch.setattr(module, "in_its_own_model", only_there)
-    begun: Any = SimpleNamespace(hypothesis=None, z=3.0, objective=25.0)
+    begun: Any = SimpleNamespace(hypothesis=None, z=3.0, objective=25.0, cost=25.0)
     assert module._sharpened(Explanation((), begun, 0.0)).refit.z == 1.0

@@ -58,10 +58,15 @@ class Refit(Generic[H]):
         return covariance_of(self.jacobian, self.hypothesis.prior_weights)
 
     @property
+    def cost(self) -> float:
+        """The objective and twice the doubt: what tells optima of different models apart."""
+        return self.objective + 2.0 * self.doubt
+
+    @property
     def log_evidence(self) -> float:
         """Laplace's, up to what all hypotheses share."""
         weights = self.hypothesis.prior_weights
-        return -0.5 * self.objective - self.doubt + log_volume(self.jacobian.T @ self.jacobian, weights)
+        return -0.5 * self.cost + log_volume(self.jacobian.T @ self.jacobian, weights)
 
 
 def covariance_of(jacobian: FloatArray, weights: FloatArray) -> FloatArray:

@@ -12,9 +12,9 @@ from statorhom.diagnose.fits.baseline import Baseline, baseline_at
 from statorhom.diagnose.fits.explanations import ADEQUATE, Explanation, blank, nothing, refitted
 from statorhom.diagnose.searches.sharper import sharpened
 
-DEEPER = 20.0  # of the objective, that another valley must be deeper to be the declared model's
+DEEPER = 20.0  # of the cost, that another valley must be deeper to be the declared model's
 LEADING = 3  # explanations whose constants are tried
-FAR = 150.0  # of the objective, by which an explanation that leaves nothing is beyond doubt in any valley
+FAR = 150.0  # of the cost, by which an explanation that leaves nothing is beyond doubt in any valley
 
 
 def declared_again(base: Baseline, found: Sequence[Explanation]) -> Baseline | None:
@@ -27,11 +27,11 @@ def declared_again(base: Baseline, found: Sequence[Explanation]) -> Baseline | N
     """
     n = base.free.hypothesis.constants
     again = [refitted(blank(e.refit.hypothesis, ()), e.refit.z[:n]) for e in found[:LEADING]]
-    best = min((r for r in again if r is not None), key=lambda r: r.objective, default=None)
-    if best is None or best.objective > base.refit.objective - DEEPER:
+    best = min((r for r in again if r is not None), key=lambda r: r.cost, default=None)
+    if best is None or best.cost > base.refit.cost - DEEPER:
         return None
-    if found[0].adequacy_but_one > ADEQUATE and best.objective > found[0].refit.objective + FAR:
+    if found[0].adequacy_but_one > ADEQUATE and best.cost > found[0].refit.cost + FAR:
         return None
     own = sharpened(nothing(best)).refit
     deeper = baseline_at(own.hypothesis.study, own.z, (base.free.z, *base.valleys))
-    return deeper if deeper.refit.objective < base.refit.objective - DEEPER else None
+    return deeper if deeper.refit.cost < base.refit.cost - DEEPER else None

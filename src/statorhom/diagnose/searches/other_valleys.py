@@ -60,7 +60,7 @@ def in_other_valleys(
     if best is None or best.objective > leading + GAIN:
         return list(found)
     own = sharpened(explained(best, counts)).refit
-    if own.objective >= field.refit.objective:
+    if own.cost >= field.refit.cost:
         return list(found)
     others = [e for e in found if e is not field]
     return sorted((explained(own, counts), *others), key=lambda e: -e.log_evidence)

@@ -39,7 +39,7 @@ CERTAIN = 0.9  # chance of the way in which modes are called, from which on ther
 MOVED = (
     0.2  # of the logarithm of a stiffness: from its reference, at which what breaks the symmetry is solved
 )
-WORSE = 10.0  # of the objective, by which a model of its own is worse than the common one
+WORSE = 10.0  # of the cost, by which a model of its own is worse than the common one
 AWAY = 2.0  # of the objective, by which an optimum is none in its own model
 AROUND = 1 / 1.1, 1.1  # times its own arc, at which a contact that is lost over one is solved
 ITSELF = (1.0,)  # the same of a rival: each arc that is solved takes as long as all else
@@ -73,7 +73,7 @@ def sharpened(explanation: Explanation, *, leads: bool = True) -> Explanation:
     deeper = at_fitting_height(_on_other_sides(found.refit))
     if deeper is found.refit:
         return found
-    return min(found, _sharpened(replace(found, refit=deeper), around), key=lambda e: e.refit.objective)
+    return min(found, _sharpened(replace(found, refit=deeper), around), key=lambda e: e.refit.cost)
 
 
 def at_its_own_materials(explanation: Explanation) -> Explanation:
@@ -118,11 +118,11 @@ def _sharpened(explanation: Explanation, around: tuple[float, ...] = AROUND) -> 
     if again is not None and _leads_past(r, again):
         middle = _half_way(r, again, around)
         again = min((x for x in (again, middle) if x is not None), key=lambda x: x.objective)
-    if again is None or again.objective > r.objective + WORSE:
+    if again is None or again.cost > r.cost + WORSE:
         # other mesh factors may have put the constants onto a slope of another valley
         wide = through_wide_valleys(moved, r.z)
         # and where two modes come near each other, a mesh factor may be that of the other one
-        again = min((x for x in (again, wide, r) if x is not None), key=lambda x: x.objective)
+        again = min((x for x in (again, wide, r) if x is not None), key=lambda x: x.cost)
     return replace(explanation, refit=again)
 
 
