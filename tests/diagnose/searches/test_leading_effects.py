@@ -104,6 +104,25 @@ def test_a_contact_lost_beside_another_winding_is_judged_by_its_evidence(
     assert found.chance(lump) == 1e-4
 
 
+@pytest.mark.parametrize("moved", [False, True])
+def test_typical_materials_are_asked_again_where_the_declared_model_has_moved(
+    monkeypatch: pytest.MonkeyPatch, moved: bool
+) -> None:
+    """It may have fled there: of a soft end winding nothing was left then, and nothing was sought."""
+    soft, asked = explanation("soft", -60.0), []
+
+    def typical(fit: Any, *_: Any) -> list[Any]:
+        asked.append(fit.log_evidence)
+        return [soft] if fit.log_evidence == -70.0 else []
+
+    steps = [(base(-300.0), [explanation("slow", -200.0)]), *([(base(-70.0), [])] if moved else [])]
+    found = led(monkeypatch, 0.5, *steps, typical=typical)
+    assert asked == ([-300.0, -70.0] if moved else [-300.0])
+    assert (soft in found.found) is moved
+    if moved:
+        assert found.chance(soft) == pytest.approx(np.exp(-10.0))
+
+
 def test_what_the_lead_is_taken_for_is_sought_behind_it(monkeypatch: pytest.MonkeyPatch) -> None:
     soft, slow = explanation("soft", -40.0), explanation("slow", -50.0)
     asked: list[Any] = []

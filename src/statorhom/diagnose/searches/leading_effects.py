@@ -88,6 +88,10 @@ def leading_effects(
             break
         only = leading.found[0].label if _explains(leading.found[0], deeper) else None
         leading = _joined(leading, _beside(deeper, candidates, counts, seed, only=only))
+    if leading.base is not base:
+        # a deeper valley may be one to which the declared model has fled, too
+        found = beside_typical_materials(leading.base.free, leading.found, candidates, counts)
+        leading = _with_more(leading, found)
     leading = _with_more(leading, sought_thoroughly(leading.base.free, leading.found, candidates, counts))
     leading = _with_more(leading, look_alikes(leading.base.free, leading.found, candidates, counts))
     # what no signature beside the declared winding shows
