@@ -17,6 +17,7 @@ from statorhom.diagnose.evidence.decision import (
     Evidence,
     Verdict,
     decide,
+    differs_from_absence,
     others,
     within_bounds,
 )
@@ -226,7 +227,7 @@ def _evidence(
         adequacy=best.adequacy_but_one,
         nothing_adequacy=none.adequacy,
         nothing_but_one=none.adequacy_but_one,
-        within=within_bounds(best),
+        within=within_bounds(best) and differs_from_absence(best),
         stability=stability([common, none, *rest[: COMPARED - 2]], seed),
     )
 

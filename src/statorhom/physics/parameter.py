@@ -45,6 +45,13 @@ class EffectParameter:
         """Whether it says where."""
         return self.scale in ("angle", "place")
 
+    @property
+    def absence(self) -> float | None:
+        """The coordinate without the effect; None of a place, and where its scale has no such value."""
+        if self.located or self.absent is None or (self.scale == "log" and self.absent <= 0.0):
+            return None
+        return self.internal(self.absent)
+
     def internal(self, value: float) -> float:
         """The coordinate of a value: deviation from the prior's middle in standard deviations."""
         middle, spread = self._normal

@@ -81,3 +81,18 @@ def test_what_stays_best_as_valleys_narrow_is_followed_too(monkeypatch: pytest.M
     assert others == 2
     # where the widest is the narrowest too, nothing else is paid for
     assert chosen(monkeypatch, valley("a", 41.9, 0.0, 9.0), valley("b", 50.0, 0.9, 8.0))[1] == ["a"]
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "moved"),
+    [
+        ({0: 1000.0, 1: 2000.0}, {0: 1001.0, 1: 1996.0}, 2e-3),
+        ({0: 1000.0, 1: 2000.0}, {0: 1001.0}, 1e-3),
+        # a narrow band of stiff materials: the first basis has no mode in it
+        ({}, {0: 1000.0}, np.inf),
+    ],
+)
+def test_a_basis_without_any_mode_of_the_band_has_not_settled(
+    before: dict[int, float], after: dict[int, float], moved: float
+) -> None:
+    assert baseline._moved(before, after) == pytest.approx(moved, rel=1e-2)

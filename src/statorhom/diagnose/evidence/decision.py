@@ -10,6 +10,7 @@ import numpy as np
 
 from statorhom.diagnose.evidence.held_out import HeldOut
 from statorhom.diagnose.fits.explanations import ADEQUATE, Explanation
+from statorhom.materials.typical_ranges import Z95
 
 Verdict = Literal["none", "named", "ambiguous", "unknown"]
 MAX_T_P = 0.01
@@ -45,7 +46,7 @@ class Evidence:
     held_out : errors on modes that were not seen; None where there were too few.
     adequacy : posterior-predictive p of the best explanation, one gross error aside.
     nothing_adequacy, nothing_but_one : and of the declared model, with every row and without the worst.
-    within : whether all magnitudes lie inside their physical ranges, off the bounds.
+    within : whether all magnitudes lie inside their physical ranges, off the bounds and off what would be absence.
     stability : share of resamplings with the same winner.
     confirmed : of two effects, whether held-out modes confirm the second one beside the first alone.
     """
@@ -187,6 +188,21 @@ def within_bounds(explanation: Explanation) -> bool:
             if not low + NEAR_BOUND * (high - low) < value < high - NEAR_BOUND * (high - low):
                 return False
     return True
+
+
+def differs_from_absence(explanation: Explanation) -> bool:
+    """Whether some magnitude's 90 % interval, of each effect, holds no absence of it.
+
+    What may as well be absent only led the constants to where they explain everything.
+    """
+    r = explanation.refit
+    sds = np.sqrt(np.diag(r.covariance))[r.hypothesis.constants :]
+    told = [False] * len(explanation.candidates)
+    for (i, j), z, sd in zip(r.hypothesis.parameters, r.z[r.hypothesis.constants :], sds, strict=True):
+        p = explanation.candidates[i].parameters[j]
+        if not p.located and p.usual is None:
+            told[i] = told[i] or p.absence is None or abs(p.absence - z) > Z95 * sd
+    return all(told) or not all(c.magnitudes for c in explanation.candidates)
 
 
 def others(best: Explanation, explanations: Sequence[Explanation]) -> list[Explanation]:

@@ -177,7 +177,7 @@ def _settled(study: StudyModel, found: Refit[Hypothesis], settings: Settings) ->
         materials = acted_materials(study, stage, study.constants.values(found.z), study.effects)
         before = _frequencies(stage, materials)
         better = with_reference(stage, materials)
-        moved = max(abs(np.log(_frequencies(better, materials)[k] / f)) for k, f in before.items())
+        moved = _moved(before, _frequencies(better, materials))
         if number == 0:
             error = mesh_error(stage.setup, better.ring, materials, settings.density)
             better = better.with_error(error)
@@ -186,6 +186,12 @@ def _settled(study: StudyModel, found: Refit[Hypothesis], settings: Settings) ->
         if number > 0 and moved < SAME_HZ:
             break
     return found
+
+
+def _moved(before: Mapping[int, float], after: Mapping[int, float]) -> float:
+    """The largest relative change of a frequency; infinite where a basis had no mode in a narrow band at all."""
+    both = before.keys() & after.keys()
+    return max((abs(float(np.log(after[k] / before[k]))) for k in both), default=np.inf)
 
 
 def _frequencies(stage: StageModel, materials: Materials) -> dict[int, float]:

@@ -8,8 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
+from statorhom.diagnose.evidence.decision import differs_from_absence
 from statorhom.diagnose.fits.baseline import Baseline, baseline_at
 from statorhom.diagnose.fits.explanations import ADEQUATE, Explanation, blank, nothing, refitted
+from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.searches.sharper import sharpened
 
 DEEPER = 20.0  # of the cost, that another valley must be deeper to be the declared model's
@@ -25,8 +29,7 @@ def declared_again(base: Baseline, found: Sequence[Explanation]) -> Baseline | N
     base : the declared model.
     found : explanations, the best first.
     """
-    n = base.free.hypothesis.constants
-    again = [refitted(blank(e.refit.hypothesis, ()), e.refit.z[:n]) for e in found[:LEADING]]
+    again = [refitted(blank(e.refit.hypothesis, ()), z) for e in found[:LEADING] for z in _starts(e)]
     best = min((r for r in again if r is not None), key=lambda r: r.cost, default=None)
     if best is None or best.cost > base.refit.cost - DEEPER:
         return None
@@ -35,3 +38,28 @@ def declared_again(base: Baseline, found: Sequence[Explanation]) -> Baseline | N
     own = sharpened(nothing(best)).refit
     deeper = baseline_at(own.hypothesis.study, own.z, (base.free.z, *base.valleys))
     return deeper if deeper.refit.cost < base.refit.cost - DEEPER else None
+
+
+def _starts(explanation: Explanation) -> list[np.ndarray]:
+    """An explanation's constants, and what they would be without the effect where that may as well be absent."""
+    r = explanation.refit
+    here = r.z[: r.hypothesis.constants]
+    return [here] if differs_from_absence(explanation) else [here, _without_effects(r)]
+
+
+def _without_effects(r: Refit) -> np.ndarray:
+    """The constants that are likeliest if the effects are absent, to first order.
+
+    From where they stand with an effect that a step's materials make up for, taking it away leads to other valleys.
+    """
+    n, covariance = r.hypothesis.constants, r.covariance
+    absent = {
+        n + k: absence
+        for k, (i, j) in enumerate(r.hypothesis.parameters)
+        if (absence := r.hypothesis.candidates[i].parameters[j].absence) is not None
+    }
+    places = list(absent)
+    away = np.array(list(absent.values())) - r.z[places]
+    return np.asarray(
+        r.z[:n] + covariance[:n, places] @ np.linalg.solve(covariance[np.ix_(places, places)], away)
+    )
