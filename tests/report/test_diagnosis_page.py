@@ -98,7 +98,10 @@ def test_every_rule_is_told_with_what_it_asked() -> None:
     assert "The data prefer it to “nothing” odds over a billion : 1 over 150 : 1 yes" in said
     assert "something else that moves each mode by chance odds over a billion : 1 over 1 : 1 yes" in said
     assert "predicted better error 94 % smaller 25 % smaller yes" in said
-    assert "Its size is possible, and not at an end of what was searched yes yes yes" in said
+    assert (
+        "Its size is possible, not at an end of what was searched, and not one that may as well be none yes yes yes"
+        in said
+    )
 
 
 def test_of_two_effects_the_second_is_asked_for_by_itself() -> None:

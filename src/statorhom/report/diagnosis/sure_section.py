@@ -37,7 +37,7 @@ WORDS = {
     "held_out": "Modes that it was not fitted to are predicted better",
     "confirmed": "… and better with both effects than with one",
     "adequacy": "What remains is no more than chance",
-    "within": "Its size is possible, and not at an end of what was searched",
+    "within": "Its size is possible, not at an end of what was searched, and not one that may as well be none",
     "stability": "Resampled data give the same answer",
 }
 FAILED = {"confirmed": "too few modes show it"}  # why, where it is no number
