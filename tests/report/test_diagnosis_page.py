@@ -115,6 +115,19 @@ def test_of_two_effects_the_second_is_asked_for_by_itself() -> None:
     assert f"{asked} too few modes show it yes no" in said
 
 
+@pytest.mark.parametrize("verdict", ["named", "ambiguous", "unknown"])
+def test_a_declared_model_that_meets_everything_is_not_said_to_fail(verdict: Verdict) -> None:
+    """A winding so soft that the mesh is sure of none of its modes meets all of them."""
+
+    def said(chance: float) -> str:
+        details = example_details(verdict).model_copy(update={"nothing_adequacy": chance})
+        return words_of(render_html(diagnosis_document(example_diagnosis(verdict), details)))
+
+    assert "cannot meet them with any constants" in said(1e-4)
+    assert "cannot meet them with any constants" not in said(0.99)
+    assert "only with constants that are unlikely" in said(0.99)
+
+
 def test_results_that_do_not_tell_the_rules_are_still_shown() -> None:
     old = example_details("named").model_copy(update={"rules": ()})
     said = words_of(render_html(diagnosis_document(example_diagnosis("named"), old)))

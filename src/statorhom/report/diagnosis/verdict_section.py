@@ -7,6 +7,8 @@ from statorhom.report.diagnosis.words import VERDICTS, effect_words, place_words
 from statorhom.report.document import Block, Notice, Paragraph, Section, Text, strong, text
 from statorhom.results.diagnosis import Details, Diagnosis, EffectResult
 
+MET = 0.01  # chance of a misfit from which on the declared model meets what was measured
+
 
 def verdict_section(d: Diagnosis, details: Details) -> Section:
     """First section."""
@@ -28,20 +30,22 @@ def _explained(d: Diagnosis, e: Details) -> Text:
             "predicted values is no more than measurement and mesh leave uncertain, and no left-out effect that the "
             f"program knows is needed.{hint} An effect too weak to show in these measurements may still be there."
         )
+    told = "The model as the study declares it was fitted to all tests at once, and "
+    told += (
+        "meets them only with constants that are unlikely, or with which it hardly knows its own modes."
+        if e.nothing_adequacy > MET
+        else "cannot meet them with any constants."
+    )
     if d.verdict == "named":
-        return text(
-            "The model as the study declares it was fitted to all tests at once, and cannot meet them with any "
-            "constants. With the effect below in the model it can, also on modes that took no part in finding it."
+        met = (
+            "With the effect below in the model it meets them, also on modes that took no part in finding it."
         )
+        return text(f"{told} {met}")
     if d.verdict == "ambiguous":
-        return text(
-            "The model as the study declares it cannot meet the measurements with any constants. Several effects would "
-            "mend it about equally well, so none is named."
-        )
+        return text(f"{told} Several effects would mend it about equally well, so none is named.")
     return text(
-        "The model as the study declares it cannot meet the measurements with any constants, and no effect in the "
-        "program’s library passes all the tests below. The constants identified from these measurements are not to be "
-        "trusted; “Where the model fails” says what contradicts it."
+        f"{told} No effect in the program’s library passes all the tests below. The constants identified from these "
+        "measurements are not to be trusted; “Where the model fails” says what contradicts it."
     )
 
 
