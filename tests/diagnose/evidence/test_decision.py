@@ -185,6 +185,15 @@ def test_an_effect_without_a_magnitude_is_there_or_not() -> None:
     assert differs_from_absence(Explanation((name,), refit, 0.0))
 
 
+def test_beside_a_wrong_name_a_magnitude_has_to_differ_from_absence_too() -> None:
+    warmth = EffectParameter("temperature_k", -20.0, 20.0, -60.0, 60.0, "linear", (5.0,), 0.0)
+    pair = (Candidate("mislabelled_mode", "wound", ()), Candidate("temperature_shift", "wound", (warmth,)))
+    hypothesis: Any = SimpleNamespace(constants=0, parameters=[(1, 0)], candidates=pair)
+    for sd, differs in ((1.0, False), (0.1, True)):
+        refit: Any = SimpleNamespace(hypothesis=hypothesis, z=np.ones(1), covariance=np.eye(1) * sd**2)
+        assert differs_from_absence(Explanation(pair, refit, 0.0)) is differs
+
+
 def test_many_modes_without_a_partner_are_no_accident_whatever_the_scan_says() -> None:
     assert decide(replace(GOOD, p_value=0.7, unpaired=True)) == "named"
     assert decide(replace(GOOD, p_value=0.7, unpaired=True, over_nothing=1.0)) == "unknown"

@@ -6,15 +6,13 @@ of them; a lump mixes them, each with the weight φ_k m φ_j λ/(λ_k - λ): tha
 
 from __future__ import annotations
 
-from math import hypot
-
 import numpy as np
 import numpy.typing as npt
 
 from statorhom.diagnose.coupons.body_pairing import Partners
 from statorhom.diagnose.coupons.body_prediction import PredictedBody
 from statorhom.diagnose.coupons.body_stage import BodyStage
-from statorhom.diagnose.features.mode_features import OWN, measured_sd
+from statorhom.diagnose.features.mode_features import sd_and_least
 from statorhom.diagnose.measured.feature import LOST_UNNAMED, NUMBERED, Feature
 from statorhom.diagnose.measured.measured_test import SHIFT_OWN, SHIFT_PART, MeasuredTest
 from statorhom.model.convergence import ModeKey
@@ -52,7 +50,7 @@ def body_features(
         if partner is None or partner >= len(predicted.log_f):
             found.append(Feature("frequency", test.name, key, LOST_UNNAMED, 0.0, 1.0, lost=True))
             continue
-        sd, least = (hypot(measured_sd(mode), own, discrepancy) for own in (predicted.own[partner], OWN))
+        sd, least = sd_and_least(mode, float(predicted.own[partner]), discrepancy)
         measured, log_f = float(np.log(mode.frequency_hz)), float(predicted.log_f[partner])
         found.append(Feature("frequency", test.name, key, measured, log_f, sd, least=least))
         if test.points is not None:

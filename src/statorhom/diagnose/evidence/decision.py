@@ -197,12 +197,12 @@ def differs_from_absence(explanation: Explanation) -> bool:
     """
     r = explanation.refit
     sds = np.sqrt(np.diag(r.covariance))[r.hypothesis.constants :]
-    told = [False] * len(explanation.candidates)
+    told = [not candidate.magnitudes for candidate in explanation.candidates]
     for (i, j), z, sd in zip(r.hypothesis.parameters, r.z[r.hypothesis.constants :], sds, strict=True):
-        p = explanation.candidates[i].parameters[j]
-        if not p.located and p.usual is None:
+        candidate = explanation.candidates[i]
+        if (p := candidate.parameters[j]) in candidate.magnitudes:
             told[i] = told[i] or p.absence is None or abs(p.absence - z) > Z95 * sd
-    return all(told) or not all(c.magnitudes for c in explanation.candidates)
+    return all(told)
 
 
 def others(best: Explanation, explanations: Sequence[Explanation]) -> list[Explanation]:

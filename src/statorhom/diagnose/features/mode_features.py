@@ -122,6 +122,12 @@ def measured_sd(mode: MeasuredMode) -> float:
     return DEFAULT_RELATIVE_SD if mode.frequency_sd_hz is None else mode.frequency_sd_hz / mode.frequency_hz
 
 
+def sd_and_least(mode: MeasuredMode, own: float, discrepancy: float) -> tuple[float, float]:
+    """Of a frequency that a model of error `own` predicts, and with the least error that any has (`Feature.least`)."""
+    sd, least = (hypot(measured_sd(mode), model, discrepancy) for model in (own, OWN))
+    return sd, least
+
+
 class _Own(NamedTuple):
     """Relative model error of a mode that others do not share, and the least that any has."""
 

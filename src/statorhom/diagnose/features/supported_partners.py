@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import hypot, log
+from math import log
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from statorhom.diagnose.features.mode_features import OWN, measured_sd
+from statorhom.diagnose.features.mode_features import sd_and_least
 from statorhom.diagnose.features.supported import SupportedReference, predicted_logs
 from statorhom.diagnose.measured.feature import LOST, Feature
 from statorhom.diagnose.measured.measured_test import MeasuredTest
@@ -102,7 +102,7 @@ def supported_features(
         if partner is None or partner >= len(logs):
             found.append(Feature("frequency", test.name, None, LOST, 0.0, 1.0, lost=True, rows=(mode.label,)))
             continue
-        sd, least = (hypot(measured_sd(mode), model, discrepancy) for model in (own[partner], OWN))
+        sd, least = sd_and_least(mode, float(own[partner]), discrepancy)
         values = log(mode.frequency_hz), float(logs[partner])
         found.append(Feature("frequency", test.name, key, *values, sd, rows=(mode.label,), least=least))
     return found
