@@ -13,7 +13,7 @@ from statorhom.diagnose.fits import valleys as valleys_of
 from statorhom.diagnose.fits.explanations import NARROWING
 from statorhom.diagnose.fits.valleys import FAR_BEHIND
 from statorhom.diagnose.searches import arc_search as module
-from statorhom.diagnose.searches.arc_search import ANYWHERE, NEARBY, best_arc
+from statorhom.diagnose.searches.arc_search import ANYWHERE, AT_ONCE, LAST, NEARBY, best_arc
 from statorhom.diagnose.searches.refit_starts import Start
 from statorhom.errors import SolverError
 from statorhom.physics.candidate import Candidate
@@ -56,6 +56,7 @@ class Search:
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.followed: dict[float, list[np.ndarray]] = {}  # by the width of the valleys
         self.judged: list[np.ndarray] = []
+        self.explains = True  # what is judged leaves no more than noise
         monkeypatch.setattr(module, "replace", lambda h, **changes: h.within(changes))
         monkeypatch.setattr(module, "in_few_vectors", lambda *_: Hypothesis("few"))
         monkeypatch.setattr(module, "by_degrees", self.by_degrees)
@@ -64,7 +65,8 @@ class Search:
         monkeypatch.setattr(module, "narrowed", self.narrowed)
         monkeypatch.setattr(module, "in_its_own_model", lambda *_, **__: Hypothesis("own"))
         monkeypatch.setattr(module, "in_few_vectors_near", self.near)
-        monkeypatch.setattr(module, "refit_objective", self.objective)
+        monkeypatch.setattr(module, "evaluated", self.refitted)
+        monkeypatch.setattr(module, "explained", lambda *_: SimpleNamespace(adequacy=float(self.explains)))
         monkeypatch.setattr(valleys_of, "refit_objective", self.objective)
 
     @staticmethod
@@ -95,7 +97,7 @@ class Search:
 
     def narrowed(self, rough: Any, steps: Sequence[float]) -> Any:
         assert tuple(steps) == NARROWING[1:]
-        return self.refitted(Hypothesis("few", steps[-1]), rough.z)
+        return self.refitted(Hypothesis(rough.hypothesis.name, steps[-1]), rough.z)
 
 
 @pytest.fixture
@@ -116,12 +118,34 @@ def test_the_best_winding_and_arc_of_all_that_are_tried_is_found(search: Search)
     assert z[0] == 0.4
     assert found["angle_rad"] == pytest.approx(PLACE, abs=np.pi / module.PLACES)
     assert search.objective(Hypothesis(), z) < 0.5
-    # fewer and fewer are followed as the valleys narrow, the last ones once more from the best places of their arcs
-    most, fewer, fewest = ANYWHERE.followed
-    counts = [len(search.followed[discrepancy]) for discrepancy in (*NARROWING, 0.0)]
-    assert counts == [most, fewer, 2 * fewest]
-    # once in the model of what few vectors lead to, once in that of what this one does
-    assert len(search.judged) in (2, 2 * ANYWHERE.models)
+    # as far as valleys are wider than what the common bases miss, and no further
+    (most,) = ANYWHERE.followed
+    assert {d: len(found) for d, found in search.followed.items()} == {NARROWING[0]: most}
+    # some at a time in models of their own, and the best of them in that of what this led to
+    assert len(search.judged) == AT_ONCE + LAST
+
+
+def test_models_of_their_own_are_made_until_one_explains(search: Search) -> None:
+    search.explains = False
+    assert best_arc(start(), WINDING, 100.0, ANYWHERE) is not None
+    assert len(search.judged) == ANYWHERE.models + LAST
+
+
+def test_the_best_is_what_is_best_in_the_model_of_where_it_was_led(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One leaves 40 in its first model, and 330 in the model of what it became there."""
+    first = {1: 40.0, 2: 45.0, 3: 50.0, 4: 300.0}
+    seen: list[float] = []
+
+    def judged(_: Any, __: Any, z: np.ndarray) -> module._Judged:
+        again = len(seen) >= len(first)
+        seen.append(z[0])
+        name = int(z[0])
+        return module._Judged(330.0 if again and name == 1 else first[name], z, True)
+
+    monkeypatch.setattr(module, "_judged", judged)
+    found: Any = [SimpleNamespace(z=np.array([float(name)]), objective=0.0) for name in first]
+    assert module._best(Hypothesis(), PLACES, found, ANYWHERE.models).tolist() == [2.0]  # type: ignore[arg-type]
+    assert seen == [1.0, 2.0, 3.0, 4.0, 1.0, 2.0, 3.0]
 
 
 @pytest.mark.usefixtures("search")
@@ -151,6 +175,10 @@ def test_the_best_of_what_is_nearby_gets_no_model_before_the_next(search: Search
     z = best_arc(begun, WINDING, 100.0, NEARBY)
     assert z is not None and search.objective(Hypothesis(), z) < 0.5
     assert search.judged == []
+    # fewer and fewer are followed as the valleys narrow, the last ones once more from the best places of their arcs
+    most, fewer, fewest = NEARBY.followed
+    counts = [len(search.followed[discrepancy]) for discrepancy in (*NARROWING, 0.0)]
+    assert counts == [most, fewer, 2 * fewest]
 
 
 @pytest.mark.usefixtures("search")
@@ -165,8 +193,8 @@ def test_a_winding_without_a_model_of_its_own_is_judged_last(monkeypatch: pytest
         raise SolverError("no such body")
 
     monkeypatch.setattr(module, "in_its_own_model", impossible)
-    objective, z = module._judged(Hypothesis(), PLACES, np.zeros(7))  # type: ignore[arg-type]
-    assert objective == np.inf and not z.any()
+    judged = module._judged(Hypothesis(), PLACES, np.zeros(7))  # type: ignore[arg-type]
+    assert judged.objective == np.inf and not judged.z.any() and not judged.explains
 
 
 @pytest.mark.parametrize("direct", [True, False])
@@ -179,8 +207,15 @@ def test_of_both_ways_into_a_model_of_its_own_the_better_one_counts(
     # its arc is a third as wide in the end
     astray = np.r_[best[:3], ARCS.parameters[0].internal(20.0), best[4:]]
     monkeypatch.setattr(module, other, lambda h, _: ways[other](h, astray))
-    _, z = module._judged(Hypothesis(), PLACES, best)  # type: ignore[arg-type]
-    assert np.array_equal(z, best)
+    monkeypatch.setattr(module, "_turned", lambda found: found)
+    judged = module._judged(Hypothesis(), PLACES, best)  # type: ignore[arg-type]
+    assert np.array_equal(judged.z, best)
+
+
+@pytest.mark.usefixtures("search")
+def test_in_a_model_of_its_own_an_arc_is_turned_to_its_best_place() -> None:
+    judged = module._judged(Hypothesis(), PLACES, start().z)  # type: ignore[arg-type]
+    assert effect(judged.z)["angle_rad"] == pytest.approx(PLACE, abs=np.pi / module.PLACES)
 
 
 @pytest.mark.usefixtures("search")

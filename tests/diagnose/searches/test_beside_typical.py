@@ -10,6 +10,7 @@ import pytest
 
 from statorhom.diagnose.fits.explanations import ADEQUATE
 from statorhom.diagnose.searches import beside_typical as module
+from statorhom.diagnose.searches import fled_materials as fled
 from statorhom.diagnose.searches import refit_starts as starts_module
 from statorhom.diagnose.searches import single_effects as effects
 from statorhom.diagnose.searches import typical_materials as typical
@@ -77,7 +78,7 @@ class Search:
             module, "explained", lambda r, _: explanation(-r.objective, label=r.hypothesis.label, refit=r)
         )
         monkeypatch.setattr(module, "sharpened", self.sharper)
-        monkeypatch.setattr(module, "doubt_by", lambda *_: self.typical)
+        monkeypatch.setattr(fled, "doubt_by", lambda *_: self.typical)
 
     def features(self, _: np.ndarray) -> list[Any]:
         told = {"kind": "frequency", "residual": self.residual}

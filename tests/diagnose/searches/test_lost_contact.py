@@ -39,9 +39,14 @@ class Search:
         self.trained: list[np.ndarray] = []
         self.begun: list[tuple[np.ndarray, Sequence[int]]] = []
         self.objectives = list(objectives)
+        self.lost: list[str] = []  # tests of which what leads lacks a line
+        self.fled = False  # whether the winding of what leads has
         items = tuple(SimpleNamespace(name=n, log=not n.endswith("nu_p"), fixed=False) for n in NAMES)
-        stage = SimpleNamespace(setup=SimpleNamespace(keys=SimpleNamespace(name="wound")))
-        study = SimpleNamespace(constants=SimpleNamespace(items=items), stages=(stage,))
+        tests = (SimpleNamespace(name="wound-free"),)
+        stage = SimpleNamespace(
+            name="wound", tests=tests, setup=SimpleNamespace(keys=SimpleNamespace(name="wound"))
+        )
+        self.study = study = SimpleNamespace(constants=SimpleNamespace(items=items), stages=(stage,))
         hypothesis = SimpleNamespace(study=study, candidates=())
         self.base: Any = SimpleNamespace(
             hypothesis=hypothesis, z=np.array([0.4, -2.0, -2.5, 0.7]), log_evidence=-200.0
@@ -61,6 +66,7 @@ class Search:
         # what few vectors lead to is refitted in all
         monkeypatch.setattr(module, "varied", lambda _, winding: [*winding, 4, 5])
         monkeypatch.setattr(module, "followed_near", self.near)
+        monkeypatch.setattr(module, "typical_where_fled", lambda _, stage, __: stage if self.fled else None)
         monkeypatch.setattr(module, "refitted", self.refit)
 
     @staticmethod
@@ -68,8 +74,16 @@ class Search:
         hypothesis: Any = SimpleNamespace(study=base.hypothesis.study, candidates=(candidate,))
         return Start(hypothesis, np.r_[base.z, z])
 
-    @staticmethod
+    def leader(self, objective: float, **told: Any) -> Any:
+        lines = [SimpleNamespace(test="wound-free", lost=False)]
+        lines += [SimpleNamespace(test=test, lost=True) for test in self.lost]
+        hypothesis = SimpleNamespace(study=self.study, constants=4, features=lambda _: lines)
+        return SimpleNamespace(
+            **{"z": None, "objective": objective, "cost": objective, "hypothesis": hypothesis, **told}
+        )
+
     def explanation(
+        self,
         log_evidence: float,
         refit: Any = None,
         adequacy: float = 0.0,
@@ -78,7 +92,7 @@ class Search:
     ) -> Any:
         return SimpleNamespace(
             log_evidence=log_evidence,
-            refit=refit or SimpleNamespace(objective=-log_evidence),
+            refit=refit or self.leader(-log_evidence),
             adequacy=adequacy,
             adequacy_but_one=adequacy,
             adequacy_of_all=of_all,
@@ -162,8 +176,7 @@ def test_an_arc_that_leads_has_to_leave_no_more_than_noise_in_losses_too(
 
 def lead(search: Search, candidate: Candidate, log_evidence: float = -20.0) -> Any:
     """What leaves no more than noise, with a winding of its own."""
-    z = np.array([0.5, 0.1, 0.2, 0.3, 9.0])
-    refit = SimpleNamespace(z=z, hypothesis=SimpleNamespace(constants=4), objective=-log_evidence)
+    refit = search.leader(-log_evidence, z=np.array([0.5, 0.1, 0.2, 0.3, 9.0]))
     return search.explanation(log_evidence, refit, adequacy=0.5, candidates=(candidate,))
 
 
@@ -197,6 +210,29 @@ def test_what_an_arc_does_not_look_like_needs_none_for_a_rival(
     explanation.adequacy_of_all = 0.5
     assert with_lost_contact(search.base, [explanation], [ARCS], {}) == []
     assert not search.begun
+
+
+def test_behind_what_has_not_got_a_line_of_the_step_arcs_are_sought_anywhere(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A table's arc of 140°: a soft end winding left no more than noise but for a line that it had no mode for."""
+    for tests, sought in ((["stack-free"], False), (["wound-free"], True)):
+        search = Search(monkeypatch, (15.0,))
+        search.lost = tests
+        assert bool(with_lost_contact(search.base, [lead(search, LUMP)], [ARCS], {})) == sought
+        assert bool(search.begun) == sought
+    assert search.reach is ANYWHERE
+
+
+def test_behind_a_winding_that_has_fled_arcs_are_sought_anywhere(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A table's arc of 75°: another name of a line left no more than noise beside a winding of 12 MPa."""
+    search = Search(monkeypatch, (25.0,))
+    search.fled = True
+    leader = search.leader(20.0, cost=60.0)  # its winding is sure of nothing
+    enough = search.explanation(-50.0, leader, adequacy=0.5)
+    (found,) = with_lost_contact(search.base, [enough], [ARCS], {})
+    assert found.refit.objective == 25.0
+    assert search.worth == 60.0 and search.reach is ANYWHERE
 
 
 def test_an_arc_that_explains_less_is_no_news(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,8 +2,9 @@
 
 A contact that is lost over a wide arc lets much of the winding go, and few frequencies tell how stiff the rest is:
 there are many valleys nearly as deep. In bases that know two such arcs, and in the few vectors that matter there,
-thousands of windings and arcs are tried where frequencies alone count, and the best of them followed. Which of the
-last ones is right shows in models of their own: there a wrong valley is left with ten times the misfit.
+thousands of windings and arcs are tried where frequencies alone count, and the best of them followed as far as valleys
+are wider than what the bases miss. Which of them is right shows in models of their own: there a wrong valley is left
+with ten times the misfit, and followed further without one the right ones are led astray.
 """
 
 from __future__ import annotations
@@ -16,10 +17,19 @@ from typing import TypeVar
 import numpy as np
 from scipy.stats import qmc
 
-from statorhom.diagnose.fits.explanations import COARSE, NARROWING, by_degrees, in_valleys, narrowed, refitted
+from statorhom.diagnose.fits.explanations import (
+    ADEQUATE,
+    COARSE,
+    NARROWING,
+    by_degrees,
+    explained,
+    in_valleys,
+    narrowed,
+    refitted,
+)
 from statorhom.diagnose.fits.few_vectors import in_few_vectors, in_few_vectors_near
 from statorhom.diagnose.fits.hypothesis import Hypothesis
-from statorhom.diagnose.fits.refit import Refit, refit_objective
+from statorhom.diagnose.fits.refit import Refit, evaluated
 from statorhom.diagnose.fits.valleys import FAR_BEHIND, apart, different, nearest_first, over_the_prior
 from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.diagnose.searches.refit_starts import Start
@@ -29,6 +39,7 @@ from statorhom.errors import StatorhomError
 TRAINED = ((np.deg2rad(60.0), 1e-4), (np.deg2rad(140.0), 1e-4))  # widths and ratios that the bases know
 WIDTH, RATIO, ANGLE = "arc_deg", "contact_ratio", "angle_rad"
 PLACES = 24  # angles where a narrow valley begins
+AT_ONCE, LAST = 4, 3  # models of their own at a time, and how many of the best get another one
 SEED = 0
 
 _T = TypeVar("_T")
@@ -46,8 +57,9 @@ class Reach:
     discrepancy : of the valleys in which points are scored.
     samples : windings and arcs whose modes span the few vectors.
     trials : points.
-    followed : how many of them are followed, fewer as the valleys narrow by degrees.
-    models : how many of the last ones are compared in models of their own.
+    followed : how many of them are followed; and, where the bases were made for what is sought, fewer as the valleys
+        narrow by degrees.
+    models : how many of the optima are compared in models of their own; none where the bases were made for them.
     """
 
     widths_deg: tuple[float, float]
@@ -56,7 +68,7 @@ class Reach:
     discrepancy: float
     samples: int
     trials: int
-    followed: tuple[int, int, int]
+    followed: tuple[int, ...]
     models: int
 
     def windings(self, parts: np.ndarray, around: np.ndarray) -> np.ndarray:
@@ -78,8 +90,8 @@ ANYWHERE = Reach(
     discrepancy=COARSE,
     samples=48,
     trials=1500,
-    followed=(24, 12, 6),
-    models=2,
+    followed=(24,),
+    models=8,
 )
 NEARBY = Reach(
     widths_deg=(12.0, 90.0),
@@ -89,7 +101,7 @@ NEARBY = Reach(
     samples=24,
     trials=300,
     followed=(8, 6, 4),
-    models=1,
+    models=0,
 )
 
 
@@ -106,12 +118,14 @@ def best_arc(start: Start, winding: Sequence[int], worth: float, reach: Reach) -
     few = in_few_vectors(start.hypothesis, _points(start, winding, reach, reach.samples, SEED + 1))
     rough = replace(few, discrepancy=reach.discrepancy, trained=False)
     nearest = nearest_first(rough, _points(start, winding, reach, reach.trials, SEED))
-    most, fewer, fewest = reach.followed
+    most, *fewer = reach.followed
     found = _optima(partial(in_valleys, few, discrepancy=NARROWING[0]), apart(nearest, most), few)
-    found = _optima(_narrower, found[:fewer], few)
-    found = _optima(_turned, found[:fewest], few)
+    for follow, count in zip((_narrower, _turned), fewer, strict=False):
+        found = _optima(follow, found[:count], few)
     found = [r for r in found if r.objective < worth + FAR_BEHIND]
-    return _best(start.hypothesis, winding, found, reach.models) if found else None
+    if not found:
+        return None
+    return _best(start.hypothesis, varied(start.hypothesis, winding), found, reach.models)
 
 
 def _points(start: Start, winding: Sequence[int], reach: Reach, count: int, seed: int) -> list[np.ndarray]:
@@ -172,43 +186,61 @@ def varied(hypothesis: Hypothesis, winding: Sequence[int]) -> list[int]:
     return [*winding, _place(hypothesis, WIDTH), _place(hypothesis, RATIO)]
 
 
-def _best(start: Hypothesis, winding: Sequence[int], found: Sequence[Refit], models: int) -> np.ndarray:
-    """Of the last ones that are near each other, the one that leaves least in a model of its own, where that led it."""
-    near = [r.z for r in found if r.objective < found[0].objective + FAR_BEHIND][:models]
-    if models == 1:
-        return near[0]  # nothing to compare it with; its own model is made by whoever asked
-    judged = side_by_side(partial(_judged, start, varied(start, winding)), near)
-    return min(judged, key=lambda j: j[0])[1]
+@dataclass(frozen=True, eq=False)
+class _Judged:
+    """The optimum next to a point in a model of its own; the model is not kept, for it is larger than it is dear.
 
-
-def _judged(start: Hypothesis, places: Sequence[int], z: np.ndarray) -> tuple[float, np.ndarray]:
-    """Objective and coordinates of the optimum next to some, where its materials and its arc are solved.
-
-    The few vectors of the search are off by percents: from there either way into a model of its own may be led astray
-    by lines of another order, and only the model of what it leads to shows it. That one is not handed on: it is larger
-    than what it takes to make it again once.
+    Parameters
+    ----------
+    objective, z : in all vectors.
+    explains : whether it leaves no more than noise.
     """
-    near = _in_model_of(start, places, z)
-    if near is None:
-        return np.inf, z
-    again = _in_model_of(start, places, near[1])
-    return near if again is None or again[0] > near[0] else again
+
+    objective: float
+    z: np.ndarray
+    explains: bool = False
 
 
-def _in_model_of(
-    hypothesis: Hypothesis, places: Sequence[int], z: np.ndarray
-) -> tuple[float, np.ndarray] | None:
-    """Objective and coordinates of the optimum near a point in its model; None where no body has its constants."""
+def _best(hypothesis: Hypothesis, places: Sequence[int], found: Sequence[Refit], models: int) -> np.ndarray:
+    """Of optima that are near each other, the one that leaves least in a model of its own, where that led it.
+
+    Each way into a model of its own may be led astray by lines of another order, and only the model of what it leads
+    to shows that: the last ones get one of that place, too.
+    """
+    if not models:
+        return found[0].z  # a model of its own is made by whoever asked
+    near = [r.z for r in found if r.objective < found[0].objective + FAR_BEHIND][:models]
+    judge = partial(_judged, hypothesis, places)
+    judged: list[_Judged] = []
+    for first in range(0, len(near), AT_ONCE):
+        judged = sorted([*judged, *side_by_side(judge, near[first : first + AT_ONCE])], key=_objective)
+        if judged[0].explains:
+            break
+    again = side_by_side(judge, [j.z for j in judged[:LAST]])
+    return min(again, key=_objective).z
+
+
+def _objective(judged: _Judged) -> float:
+    return judged.objective
+
+
+def _judged(hypothesis: Hypothesis, places: Sequence[int], z: np.ndarray) -> _Judged:
+    """The optimum next to a point where its materials and its arc are solved."""
     try:
         own = in_its_own_model(hypothesis, z, quick=True, around=ITSELF)
-        there = followed_near(own, places, z)
-        return None if there is None else (refit_objective(own, there), there)
+        near = followed_near(own, places, z)
+        if near is None:
+            return _Judged(np.inf, z)
+        there = evaluated(own, near)
+        return _Judged(there.objective, near, explained(there, {}).adequacy > ADEQUATE)
     except (StatorhomError, KeyError):
-        return None
+        return _Judged(np.inf, z)
 
 
 def followed_near(own: Hypothesis, places: Sequence[int], z: np.ndarray) -> np.ndarray | None:
     """The best optimum next to a point, straight or as valleys narrow, in the vectors that points around it span.
+
+    Its arc is turned to its best place.
 
     Parameters
     ----------
@@ -218,4 +250,5 @@ def followed_near(own: Hypothesis, places: Sequence[int], z: np.ndarray) -> np.n
     """
     few = in_few_vectors_near(own, z, places)
     found = [r for way in (refitted, by_degrees) if (r := way(few, z)) is not None]
-    return min(found, key=lambda r: r.objective).z if found else None
+    turned = [_turned(r) or r for r in found]
+    return min(turned, key=lambda r: r.objective).z if turned else None

@@ -4,8 +4,7 @@ Without it the declared model may have fled: a soft end winding was a whole wind
 without a partner. Beside that nothing explains anything, and in its basis the right winding would fit no better. So
 each step is solved anew with typical materials, and the effects on it are tried with materials all over the prior.
 
-It may also have fled to where it explains everything: a winding so soft that no mesh shows its modes well is sure of
-none of them. There is nothing left to explain then, and only the evidence tells that it says nothing.
+It may also have fled to where it explains everything (`statorhom.diagnose.searches.fled_materials`).
 """
 
 from __future__ import annotations
@@ -16,20 +15,16 @@ from functools import partial
 import numpy as np
 
 from statorhom.diagnose.evidence.decision import OVER_NOTHING
-from statorhom.diagnose.features.mode_features import doubt_by
 from statorhom.diagnose.fits.explanations import ADEQUATE, Explanation, explained, nothing
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.processes.side_by_side import side_by_side
+from statorhom.diagnose.searches.fled_materials import typical_where_fled
 from statorhom.diagnose.searches.refit_starts import Start, cheap_starts, first_start, shared_by
 from statorhom.diagnose.searches.sharper import sharpened
 from statorhom.diagnose.searches.single_effects import MOSTLY, optima_elsewhere
-from statorhom.diagnose.searches.typical_materials import with_typical_materials
-from statorhom.diagnose.stages.constants import new_constants
 from statorhom.diagnose.stages.stage_model import StageModel
-from statorhom.identify.residuals.model_error import ModelError
 from statorhom.physics.candidate import Candidate
-from statorhom.study.study_file import FREE
 
 OWN_MODELS = 3  # of the best that are compared in models of their own
 NEAR = 60.0  # of the objective: what does not come so near to the best gets none
@@ -74,35 +69,10 @@ def _starts(
     least : log evidence that typical materials have to gain, to first order, if they explain as much.
     """
     cheap = cheap_starts(base, [c for c in candidates if c.stage == stage.name])
-    # a typical model takes seconds
-    if not cheap or _loss(base, stage) <= least:
-        return []
-    typical = with_typical_materials(base, stage.name)
-    if typical is None or _loss(base, stage, _same_stage(typical, stage).error) <= least:
+    typical = typical_where_fled(base, stage, least) if cheap else None
+    if typical is None:
         return []
     return [first_start(typical, start.hypothesis.candidates[-1]) for start in cheap]
-
-
-def _loss(of: Refit[Hypothesis], stage: StageModel, typical: ModelError | None = None) -> float:
-    """Log evidence that a step's own materials lose against typical ones that explain its free frequencies.
-
-    They are unusual, they leave more than noise does, and the mesh may be less sure of their modes.
-
-    Parameters
-    ----------
-    of, stage : the declared model, and the step.
-    typical : the mesh's error with typical materials; one that is sure of every mode by default.
-    """
-    own = new_constants(of.hypothesis.study.constants, stage.name)
-    free = {t.name for t in stage.tests if t.support == FREE}
-    unusual = 0.5 * float(of.hypothesis.prior_weights[own] @ of.z[own] ** 2)
-    seen = [f for f in of.hypothesis.features(of.z) if f.test in free and f.kind == "frequency"]
-    left = sum(0.5 * max(0.0, f.residual**2 - 1.0) for f in seen)
-    return unusual + left + sum(f.doubt - (0.0 if typical is None else doubt_by(f, typical)) for f in seen)
-
-
-def _same_stage(of: Refit[Hypothesis], stage: StageModel) -> StageModel:
-    return next(s for s in of.hypothesis.study.stages if s.name == stage.name)
 
 
 def _best_anywhere(start: Start) -> Refit | None:

@@ -2,7 +2,8 @@
 
 The declared model, whose winding holds on everywhere, takes the lost contact for a winding that is ten or fifty times
 too soft, and so softly held a winding has no use for a contact that is lost. So arcs are sought beside windings all
-over the prior (`statorhom.diagnose.searches.arc_search`), and what is found gets models of its own.
+over the prior (`statorhom.diagnose.searches.arc_search`), and what is found gets models of its own. So they are behind
+what explains everything with a winding that has fled: another name of a line does beside a lost contact.
 
 A narrow arc leaves the winding as it is. What it does to the few lines of a wound stator a lump does as well, or
 whatever else parts them: behind such a lead arcs are sought beside the winding that came with it.
@@ -15,7 +16,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from statorhom.diagnose.evidence.decision import NEAR_RIVAL
+from statorhom.diagnose.evidence.decision import NEAR_RIVAL, OVER_NOTHING
 from statorhom.diagnose.fits.explanations import (
     ADEQUATE,
     WELL,
@@ -37,6 +38,7 @@ from statorhom.diagnose.searches.arc_search import (
     followed_near,
     varied,
 )
+from statorhom.diagnose.searches.fled_materials import typical_where_fled
 from statorhom.diagnose.searches.refit_starts import Start, first_start
 from statorhom.diagnose.searches.sharper import in_its_own_model
 from statorhom.diagnose.searches.typical_materials import with_typical_materials
@@ -53,7 +55,8 @@ def with_lost_contact(
 ) -> list[Explanation]:
     """Arcs of lost contact that explain more than anything that was found, or come near what they look like.
 
-    They are sought where much is left to explain, and behind what sits on the circumference of a winding's step.
+    They are sought where much is left to explain, where the winding has fled, and behind what sits on the circumference
+    of a winding's step.
 
     Parameters
     ----------
@@ -66,8 +69,13 @@ def with_lost_contact(
     best = found[0] if found else nothing(base)
     if not arcs or nothing(base).adequacy > ADEQUATE:
         return []
-    if not _is_settled(best, arcs):
-        own = [r for c in arcs if (r := _beside_any(base, c, best.refit.objective)) is not None]
+    anywhere = [
+        c
+        for c in arcs
+        if not _is_settled(best, arcs) or _lacks_partners(best.refit, c) or _has_fled(best.refit, c)
+    ]
+    if anywhere:
+        own = [r for c in anywhere if (r := _beside_any(base, c, best.refit.cost)) is not None]
         return [e for r in own if (e := explained(r, counts)).log_evidence > best.log_evidence]
     alike = [c for c in arcs if _looks_like(best, c)]
     own = [r for c in alike if (r := _beside_that_of(best.refit, base, c)) is not None]
@@ -90,13 +98,25 @@ def _is_settled(best: Explanation, arcs: Sequence[Candidate]) -> bool:
     return best.adequacy_but_one > WELL
 
 
+def _lacks_partners(best: Refit, arc: Candidate) -> bool:
+    """Whether what leads has not got some line of the arc's step: what lets go of the core has modes of its own."""
+    own = {t.name for s in best.hypothesis.study.stages if s.name == arc.stage for t in s.tests}
+    return any(f.lost and f.test in own for f in best.hypothesis.features(best.z))
+
+
+def _has_fled(best: Refit, arc: Candidate) -> bool:
+    """Whether the winding that came with what leads explains by being unusual or sure of nothing."""
+    stages = [s for s in best.hypothesis.study.stages if s.name == arc.stage]
+    return any(typical_where_fled(best, stage, OVER_NOTHING) is not None for stage in stages)
+
+
 def _beside_any(base: Refit, candidate: Candidate, worth: float) -> Refit | None:
     """The best optimum of an arc beside any winding, in a model of its own; None where no winding will do.
 
     Parameters
     ----------
     base, candidate : the declared model, and the arc.
-    worth : objective that is reached without an arc.
+    worth : objective that is reached without an arc, its doubt included.
     """
     typical = with_typical_materials(base, candidate.stage, quick=True, arcs=TRAINED)
     return None if typical is None else _sought(first_start(typical, candidate), worth, ANYWHERE)
