@@ -108,7 +108,9 @@ class Search:
         if around:
             assert around == NARROW and quick
         if arcs:
-            assert arcs == TRAINED and quick
+            assert (
+                arcs == TRAINED and not quick
+            )  # the declared winding's mesh factors are none of a typical one
             self.trained.append(z)
         return hypothesis
 

@@ -202,14 +202,15 @@ class _Judged:
 
 
 def _best(hypothesis: Hypothesis, places: Sequence[int], found: Sequence[Refit], models: int) -> np.ndarray:
-    """Of optima that are near each other, the one that leaves least in a model of its own, where that led it.
+    """Of the first optima and those near the best, the one that leaves least in a model of its own, where that led it.
 
     Each way into a model of its own may be led astray by lines of another order, and only the model of what it leads
     to shows that: the last ones get one of that place, too.
     """
     if not models:
         return found[0].z  # a model of its own is made by whoever asked
-    near = [r.z for r in found if r.objective < found[0].objective + FAR_BEHIND][:models]
+    least = found[0].objective + FAR_BEHIND
+    near = [r.z for i, r in enumerate(found[:models]) if i < AT_ONCE or r.objective < least]
     judge = partial(_judged, hypothesis, places)
     judged: list[_Judged] = []
     for first in range(0, len(near), AT_ONCE):

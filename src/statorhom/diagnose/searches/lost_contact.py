@@ -118,7 +118,7 @@ def _beside_any(base: Refit, candidate: Candidate, worth: float) -> Refit | None
     base, candidate : the declared model, and the arc.
     worth : objective that is reached without an arc, its doubt included.
     """
-    typical = with_typical_materials(base, candidate.stage, quick=True, arcs=TRAINED)
+    typical = with_typical_materials(base, candidate.stage, arcs=TRAINED)
     return None if typical is None else _sought(first_start(typical, candidate), worth, ANYWHERE)
 
 
