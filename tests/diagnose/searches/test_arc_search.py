@@ -13,7 +13,7 @@ from statorhom.diagnose.fits import valleys as valleys_of
 from statorhom.diagnose.fits.explanations import NARROWING
 from statorhom.diagnose.fits.valleys import FAR_BEHIND
 from statorhom.diagnose.searches import arc_search as module
-from statorhom.diagnose.searches.arc_search import ANYWHERE, AT_ONCE, LAST, NEARBY, best_arc
+from statorhom.diagnose.searches.arc_search import ANYWHERE, LAST, NEARBY, best_arc
 from statorhom.diagnose.searches.refit_starts import Start
 from statorhom.errors import SolverError
 from statorhom.physics.candidate import Candidate
@@ -56,7 +56,6 @@ class Search:
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.followed: dict[float, list[np.ndarray]] = {}  # by the width of the valleys
         self.judged: list[np.ndarray] = []
-        self.explains = True  # what is judged leaves no more than noise
         monkeypatch.setattr(module, "replace", lambda h, **changes: h.within(changes))
         monkeypatch.setattr(module, "in_few_vectors", lambda *_: Hypothesis("few"))
         monkeypatch.setattr(module, "by_degrees", self.by_degrees)
@@ -65,8 +64,7 @@ class Search:
         monkeypatch.setattr(module, "narrowed", self.narrowed)
         monkeypatch.setattr(module, "in_its_own_model", lambda *_, **__: Hypothesis("own"))
         monkeypatch.setattr(module, "in_few_vectors_near", self.near)
-        monkeypatch.setattr(module, "evaluated", self.refitted)
-        monkeypatch.setattr(module, "explained", lambda *_: SimpleNamespace(adequacy=float(self.explains)))
+        monkeypatch.setattr(module, "refit_objective", self.objective)
         monkeypatch.setattr(valleys_of, "refit_objective", self.objective)
 
     @staticmethod
@@ -121,14 +119,15 @@ def test_the_best_winding_and_arc_of_all_that_are_tried_is_found(search: Search)
     # as far as valleys are wider than what the common bases miss, and no further
     (most,) = ANYWHERE.followed
     assert {d: len(found) for d, found in search.followed.items()} == {NARROWING[0]: most}
-    # some at a time in models of their own, and the best of them in that of what this led to
-    assert len(search.judged) == AT_ONCE + LAST
-
-
-def test_models_of_their_own_are_made_until_one_explains(search: Search) -> None:
-    search.explains = False
-    assert best_arc(start(), WINDING, 100.0, ANYWHERE) is not None
+    # in models of their own, and the best of them in that of what this led to
     assert len(search.judged) == ANYWHERE.models + LAST
+
+
+@pytest.mark.usefixtures("search")
+def test_another_draw_tries_other_points() -> None:
+    first, second = (best_arc(start(), WINDING, 100.0, ANYWHERE, draw) for draw in (0, 1))
+    assert first is not None and second is not None
+    assert not np.array_equal(first, second)
 
 
 def test_the_best_is_what_is_best_in_the_model_of_where_it_was_led(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -140,7 +139,7 @@ def test_the_best_is_what_is_best_in_the_model_of_where_it_was_led(monkeypatch: 
         again = len(seen) >= len(first)
         seen.append(z[0])
         name = int(z[0])
-        return module._Judged(330.0 if again and name == 1 else first[name], z, True)
+        return module._Judged(330.0 if again and name == 1 else first[name], z)
 
     monkeypatch.setattr(module, "_judged", judged)
     found: Any = [SimpleNamespace(z=np.array([float(name)]), objective=0.0) for name in first]
@@ -194,7 +193,7 @@ def test_a_winding_without_a_model_of_its_own_is_judged_last(monkeypatch: pytest
 
     monkeypatch.setattr(module, "in_its_own_model", impossible)
     judged = module._judged(Hypothesis(), PLACES, np.zeros(7))  # type: ignore[arg-type]
-    assert judged.objective == np.inf and not judged.z.any() and not judged.explains
+    assert judged.objective == np.inf and not judged.z.any()
 
 
 @pytest.mark.parametrize("direct", [True, False])

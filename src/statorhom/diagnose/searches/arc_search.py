@@ -18,18 +18,16 @@ import numpy as np
 from scipy.stats import qmc
 
 from statorhom.diagnose.fits.explanations import (
-    ADEQUATE,
     COARSE,
     NARROWING,
     by_degrees,
-    explained,
     in_valleys,
     narrowed,
     refitted,
 )
 from statorhom.diagnose.fits.few_vectors import in_few_vectors, in_few_vectors_near
 from statorhom.diagnose.fits.hypothesis import Hypothesis
-from statorhom.diagnose.fits.refit import Refit, evaluated
+from statorhom.diagnose.fits.refit import Refit, refit_objective
 from statorhom.diagnose.fits.valleys import FAR_BEHIND, apart, different, nearest_first, over_the_prior
 from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.diagnose.searches.refit_starts import Start
@@ -39,8 +37,7 @@ from statorhom.errors import StatorhomError
 TRAINED = ((np.deg2rad(60.0), 1e-4), (np.deg2rad(140.0), 1e-4))  # widths and ratios that the bases know
 WIDTH, RATIO, ANGLE = "arc_deg", "contact_ratio", "angle_rad"
 PLACES = 24  # angles where a narrow valley begins
-AT_ONCE, LAST = 4, 3  # models of their own at a time, and how many of the best get another one
-SEED = 0
+LAST = 3  # of what was judged in models of their own, that get another one
 
 _T = TypeVar("_T")
 
@@ -91,7 +88,7 @@ ANYWHERE = Reach(
     samples=48,
     trials=1500,
     followed=(24,),
-    models=8,
+    models=4,
 )
 NEARBY = Reach(
     widths_deg=(12.0, 90.0),
@@ -105,7 +102,9 @@ NEARBY = Reach(
 )
 
 
-def best_arc(start: Start, winding: Sequence[int], worth: float, reach: Reach) -> np.ndarray | None:
+def best_arc(
+    start: Start, winding: Sequence[int], worth: float, reach: Reach, draw: int = 0
+) -> np.ndarray | None:
     """Coordinates of the best arc; None where no winding will do.
 
     Parameters
@@ -114,10 +113,11 @@ def best_arc(start: Start, winding: Sequence[int], worth: float, reach: Reach) -
     winding : places of the constants that are sought with it.
     worth : objective that is reached without; few vectors may miss the arc's by some.
     reach : where it is sought.
+    draw : of the points that are tried: another one may lead to a valley that the first one missed.
     """
-    few = in_few_vectors(start.hypothesis, _points(start, winding, reach, reach.samples, SEED + 1))
+    few = in_few_vectors(start.hypothesis, _points(start, winding, reach, reach.samples, 2 * draw + 1))
     rough = replace(few, discrepancy=reach.discrepancy, trained=False)
-    nearest = nearest_first(rough, _points(start, winding, reach, reach.trials, SEED))
+    nearest = nearest_first(rough, _points(start, winding, reach, reach.trials, 2 * draw))
     most, *fewer = reach.followed
     found = _optima(partial(in_valleys, few, discrepancy=NARROWING[0]), apart(nearest, most), few)
     for follow, count in zip((_narrower, _turned), fewer, strict=False):
@@ -193,30 +193,22 @@ class _Judged:
     Parameters
     ----------
     objective, z : in all vectors.
-    explains : whether it leaves no more than noise.
     """
 
     objective: float
     z: np.ndarray
-    explains: bool = False
 
 
 def _best(hypothesis: Hypothesis, places: Sequence[int], found: Sequence[Refit], models: int) -> np.ndarray:
-    """Of the first optima and those near the best, the one that leaves least in a model of its own, where that led it.
+    """Of the first optima the one that leaves least in a model of its own, where that led it.
 
     Each way into a model of its own may be led astray by lines of another order, and only the model of what it leads
     to shows that: the last ones get one of that place, too.
     """
     if not models:
         return found[0].z  # a model of its own is made by whoever asked
-    least = found[0].objective + FAR_BEHIND
-    near = [r.z for i, r in enumerate(found[:models]) if i < AT_ONCE or r.objective < least]
     judge = partial(_judged, hypothesis, places)
-    judged: list[_Judged] = []
-    for first in range(0, len(near), AT_ONCE):
-        judged = sorted([*judged, *side_by_side(judge, near[first : first + AT_ONCE])], key=_objective)
-        if judged[0].explains:
-            break
+    judged = sorted(side_by_side(judge, [r.z for r in found[:models]]), key=_objective)
     again = side_by_side(judge, [j.z for j in judged[:LAST]])
     return min(again, key=_objective).z
 
@@ -235,8 +227,7 @@ def _judged(hypothesis: Hypothesis, places: Sequence[int], z: np.ndarray) -> _Ju
         near = followed_near(own, places, z)
         if near is None:
             return _Judged(np.inf, z)
-        there = evaluated(own, near)
-        return _Judged(there.objective, near, explained(there, {}).adequacy > ADEQUATE)
+        return _Judged(refit_objective(own, near), near)
     except (StatorhomError, KeyError):
         return _Judged(np.inf, z)
 
