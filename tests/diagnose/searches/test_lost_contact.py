@@ -110,9 +110,8 @@ class Search:
         if around:
             assert around == NARROW and quick
         if arcs:
-            assert (
-                arcs == TRAINED and not quick
-            )  # the declared winding's mesh factors are none of a typical one
+            # the declared winding's mesh factors are none of a typical one
+            assert arcs == TRAINED and not quick
             self.trained.append(z)
         return hypothesis
 

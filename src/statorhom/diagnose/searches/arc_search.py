@@ -12,19 +12,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from operator import attrgetter
 from typing import TypeVar
 
 import numpy as np
 from scipy.stats import qmc
 
-from statorhom.diagnose.fits.explanations import (
-    COARSE,
-    NARROWING,
-    by_degrees,
-    in_valleys,
-    narrowed,
-    refitted,
-)
+from statorhom.diagnose.fits.explanations import COARSE, NARROWING, by_degrees, in_valleys, narrowed, refitted
 from statorhom.diagnose.fits.few_vectors import in_few_vectors, in_few_vectors_near
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit, refit_objective
@@ -188,7 +182,7 @@ def varied(hypothesis: Hypothesis, winding: Sequence[int]) -> list[int]:
 
 @dataclass(frozen=True, eq=False)
 class _Judged:
-    """The optimum next to a point in a model of its own; the model is not kept, for it is larger than it is dear.
+    """The optimum next to a point in a model of its own, which is not handed on: to make it again costs less.
 
     Parameters
     ----------
@@ -208,13 +202,9 @@ def _best(hypothesis: Hypothesis, places: Sequence[int], found: Sequence[Refit],
     if not models:
         return found[0].z  # a model of its own is made by whoever asked
     judge = partial(_judged, hypothesis, places)
-    judged = sorted(side_by_side(judge, [r.z for r in found[:models]]), key=_objective)
+    judged = sorted(side_by_side(judge, [r.z for r in found[:models]]), key=attrgetter("objective"))
     again = side_by_side(judge, [j.z for j in judged[:LAST]])
-    return min(again, key=_objective).z
-
-
-def _objective(judged: _Judged) -> float:
-    return judged.objective
+    return min(again, key=attrgetter("objective")).z
 
 
 def _judged(hypothesis: Hypothesis, places: Sequence[int], z: np.ndarray) -> _Judged:

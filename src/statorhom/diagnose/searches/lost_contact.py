@@ -2,8 +2,8 @@
 
 The declared model, whose winding holds on everywhere, takes the lost contact for a winding that is ten or fifty times
 too soft, and so softly held a winding has no use for a contact that is lost. So arcs are sought beside windings all
-over the prior (`statorhom.diagnose.searches.arc_search`), and what is found gets models of its own. So they are behind
-what explains everything with a winding that has fled: another name of a line does beside a lost contact.
+over the prior (`statorhom.diagnose.searches.arc_search`), and what is found gets models of its own. They are sought
+behind what explains everything with a winding that has fled, too: beside a lost contact another name of a line does.
 
 A narrow arc leaves the winding as it is. What it does to the few lines of a wound stator a lump does as well, or
 whatever else parts them: behind such a lead arcs are sought beside the winding that came with it.
@@ -47,9 +47,7 @@ from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
 
 ROUNDS = 3  # models of its own for the best one
-DRAWS = (
-    2  # of windings and arcs all over the prior, the second one where the first leads to none that explains
-)
+DRAWS = 2  # of windings and arcs all over the prior, while they lead to nothing that explains
 NARROW = 0.6, 1.6  # times the width of an arc's first start, that the bases know where narrow arcs are sought
 
 
@@ -72,11 +70,8 @@ def with_lost_contact(
     best = found[0] if found else nothing(base)
     if not arcs or nothing(base).adequacy > ADEQUATE:
         return []
-    anywhere = [
-        c
-        for c in arcs
-        if not _is_settled(best, arcs) or _lacks_partners(best.refit, c) or _has_fled(best.refit, c)
-    ]
+    is_open = not _is_settled(best, arcs)
+    anywhere = [c for c in arcs if is_open or _lacks_partners(best.refit, c) or _has_fled(best.refit, c)]
     if anywhere:
         own = [r for c in anywhere if (r := _beside_any(base, c, best.refit.cost)) is not None]
         return [e for r in own if (e := explained(r, counts)).log_evidence > best.log_evidence]
@@ -124,14 +119,13 @@ def _beside_any(base: Refit, candidate: Candidate, worth: float) -> Refit | None
     typical = with_typical_materials(base, candidate.stage, arcs=TRAINED)
     if typical is None:
         return None
-    best: Refit | None = None
+    start, found = first_start(typical, candidate), []
     for draw in range(DRAWS):
-        found = _sought(first_start(typical, candidate), worth, ANYWHERE, draw)
-        if found is not None and (best is None or found.objective < best.objective):
-            best = found
-        if best is not None and explained(best, {}).adequacy > ADEQUATE:
+        own = _sought(start, worth, ANYWHERE, draw)
+        found += [own] if own is not None else []
+        if own is not None and explained(own, {}).adequacy > ADEQUATE:
             break
-    return best
+    return min(found, key=lambda r: r.objective, default=None)
 
 
 def _beside_that_of(leader: Refit, base: Refit, candidate: Candidate) -> Refit | None:
