@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
 
@@ -20,19 +22,33 @@ def valley(
     )
 
 
-def chosen(monkeypatch: pytest.MonkeyPatch, *valleys: SimpleNamespace) -> tuple[Any, list[str], int]:
+@dataclass(frozen=True)
+class Stage:
+    """A step as high as its tests, and the tests it is fitted to."""
+
+    highest: float
+    tests: tuple[Any, ...]
+
+
+def stage(_setup: Any, tests: Sequence[Any], *_: Any) -> Stage:
+    return Stage(max((t.highest for t in tests), default=0.0), tuple(tests))
+
+
+def chosen(
+    monkeypatch: pytest.MonkeyPatch, *valleys: SimpleNamespace, tests: Sequence[Any] = (), kept: Any = None
+) -> tuple[Any, list[str], int]:
     settled: list[str] = []
 
     def settle(_study: Any, one: SimpleNamespace, _settings: Any) -> SimpleNamespace:
         settled.append(one.hypothesis.study)
         return one
 
-    study = SimpleNamespace(constants=(), stages=(), with_stages=lambda _: None)
+    study = SimpleNamespace(constants=(), stages=(), with_stages=kept or (lambda _: None))
     for name, fake in {
         "new_constants": lambda *_: [],
         "trials_around": lambda *_: [],
         "_materials": lambda *_: [],
-        "stage_model": lambda *_: None,
+        "stage_model": stage,
         "Hypothesis": lambda study: study,
         "wide_optima": lambda *_, **__: list(valleys),
         "with_other_sides": lambda _, wide, *__: wide,
@@ -44,13 +60,26 @@ def chosen(monkeypatch: pytest.MonkeyPatch, *valleys: SimpleNamespace) -> tuple[
         monkeypatch.setattr(baseline, name, fake)
     settings = SimpleNamespace(seed=0, density=None)
     setup: Any = SimpleNamespace(keys=SimpleNamespace(name="stack"))
-    found, _, others = baseline._with_step(study, np.zeros(0), setup, (), settings)  # type: ignore[arg-type]
+    found, _, others = baseline._with_step(study, np.zeros(0), setup, tests, settings)  # type: ignore[arg-type]
     return found, settled, len(others)
 
 
 def test_the_first_that_leaves_nothing_to_explain_is_enough(monkeypatch: pytest.MonkeyPatch) -> None:
     first, second = valley("a", 10.0, 0.5, 10.0), valley("b", 11.0, 0.9, 5.0)
     assert chosen(monkeypatch, first, second) == ("a", ["a"], 1)
+
+
+def test_the_model_reaches_as_high_as_a_clamped_test_and_is_fitted_to_the_free_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Three lines of a clamped table had no partner: the free one lacked its highest mode."""
+    free, clamped = (
+        SimpleNamespace(support="free", highest=3654.0),
+        SimpleNamespace(support="v", highest=5098.0),
+    )
+    stages: list[Any] = []
+    chosen(monkeypatch, valley("a", 10.0, 0.5, 10.0), tests=(free, clamped), kept=stages.extend)
+    assert stages == [Stage(5098.0, (free,))]
 
 
 def test_one_that_fits_beats_a_wider_one_that_does_not(monkeypatch: pytest.MonkeyPatch) -> None:

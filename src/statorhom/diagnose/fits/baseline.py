@@ -94,7 +94,7 @@ def baseline(
     valleys: tuple[np.ndarray, ...] = ()
     for setup in tested:
         own = [tests[t.name] for t in setup.tests if t.name in tests]
-        study, z, valleys = _with_step(study, z, setup, _leading(own), settings)
+        study, z, valleys = _with_step(study, z, setup, own, settings)
     whole = study.with_stages(
         tuple(
             replace(s, tests=tuple(tests[t.name] for t in s.setup.tests if t.name in tests))
@@ -127,12 +127,15 @@ def _leading(tests: Sequence[MeasuredTest]) -> Sequence[MeasuredTest]:
 def _with_step(
     study: StudyModel, z: np.ndarray, setup: StageSetup, tests: Sequence[MeasuredTest], settings: Settings
 ) -> tuple[StudyModel, np.ndarray, tuple[np.ndarray, ...]]:
-    """One more step: its constants from the best of many starts; the other optima."""
+    """One more step: its constants from the best of many starts; the other optima.
+
+    The model reaches as high as any test: a clamped one may have lines above all that the free one shows.
+    """
     places = new_constants(study.constants, setup.keys.name)
     trials = trials_around(z, places, settings.seed)
     snapshots = _materials(study, setup, trials)[:SNAPSHOTS]
     stage = stage_model(setup, tests, snapshots, settings.density)
-    study = study.with_stages((*study.stages, stage))
+    study = study.with_stages((*study.stages, replace(stage, tests=tuple(_leading(tests)))))
     # constants of earlier steps stay while new ones are sought
     wide = wide_optima(Hypothesis(study), trials, most=MOST)
     wide = with_other_sides(Hypothesis(study), wide, places)
