@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from statorhom.diagnose.evidence.decision import NEAR_RIVAL
+from statorhom.diagnose.evidence.decision import NEAR_RIVAL, OVER_NOTHING
 from statorhom.diagnose.searches import lost_contact as module
 from statorhom.diagnose.searches import refit_starts as starts_module
 from statorhom.diagnose.searches import typical_materials as typical
@@ -244,6 +244,21 @@ def test_behind_what_has_not_got_a_line_of_the_step_arcs_are_sought_anywhere(
         assert bool(with_lost_contact(search.base, [lead(search, LUMP)], [ARCS], {})) == sought
         assert bool(search.begun) == sought
     assert search.reach is ANYWHERE
+
+
+@pytest.mark.parametrize(
+    ("lost", "lead_by", "sought"),
+    [(["wound-free"], 2 * OVER_NOTHING, True), (["wound-free"], 1.0, False), ([], 2 * OVER_NOTHING, False)],
+    ids=["a lead without a line", "what hardly leads", "all lines have partners"],
+)
+def test_beside_a_declared_model_that_leaves_no_more_than_noise_missing_lines_alone_ask_for_arcs(
+    monkeypatch: pytest.MonkeyPatch, lost: list[str], lead_by: float, sought: bool
+) -> None:
+    search = Search(monkeypatch, (15.0,))
+    search.lost, search.fled = lost, True
+    monkeypatch.setattr(module, "nothing", lambda _: search.explanation(-30.0, adequacy=0.065))
+    assert bool(with_lost_contact(search.base, [lead(search, LUMP, lead_by - 30.0)], [ARCS], {})) == sought
+    assert bool(search.begun) == sought
 
 
 def test_behind_a_winding_that_has_fled_arcs_are_sought_anywhere(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -67,8 +67,13 @@ def with_lost_contact(
     counts : effect → number of its candidates, over which its prior is spread.
     """
     arcs = [c for c in candidates if {WIDTH, RATIO} <= {p.name for p in c.parameters}]
-    best = found[0] if found else nothing(base)
-    if not arcs or nothing(base).adequacy > ADEQUATE:
+    declared = nothing(base)
+    best = found[0] if found else declared
+    if declared.adequacy > ADEQUATE:
+        # its few lines may be what a winding too soft explains; that others have no partner speaks against it
+        seen = best.log_evidence > declared.log_evidence + OVER_NOTHING
+        arcs = [c for c in arcs if seen and _lacks_partners(best.refit, c)]
+    if not arcs:
         return []
     is_open = not _is_settled(best, arcs)
     anywhere = [c for c in arcs if is_open or _lacks_partners(best.refit, c) or _has_fled(best.refit, c)]
