@@ -196,7 +196,7 @@ def _polished(hypothesis: _H, z: FloatArray, worth: float = np.inf) -> Refit[_H]
         scale = np.maximum(np.diag(H), LEAST_CURVATURE)
         better = None
         for _ in range(6):
-            step = _step(H + damping * np.diag(scale), gradient, low - here.z, high - here.z)
+            step = bounded_step(H + damping * np.diag(scale), gradient, low - here.z, high - here.z)
             step *= min(1.0, LARGEST_STEP / max(float(np.abs(step).max()), 1e-12))
             try:
                 trial = _Point.of(hypothesis, np.clip(here.z + step, low, high))
@@ -217,7 +217,7 @@ def _polished(hypothesis: _H, z: FloatArray, worth: float = np.inf) -> Refit[_H]
     return _refit_at(hypothesis, here, J)
 
 
-def _step(H: FloatArray, gradient: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+def bounded_step(H: FloatArray, gradient: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
     """Where ½ sᵀHs + gᵀs is least: what would leave its limits stays on them, and the others move as it stays."""
     step, held = np.zeros(len(gradient)), np.zeros(len(gradient), dtype=bool)
     for _ in range(len(gradient)):
