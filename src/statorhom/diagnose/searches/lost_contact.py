@@ -69,7 +69,7 @@ def with_lost_contact(
     arcs = [c for c in candidates if {WIDTH, RATIO} <= {p.name for p in c.parameters}]
     declared = nothing(base)
     best = found[0] if found else declared
-    if declared.adequacy > ADEQUATE:
+    if arcs and declared.adequacy > ADEQUATE:
         # its few lines may be what a winding too soft explains; that others have no partner speaks against it
         seen = best.log_evidence > declared.log_evidence + OVER_NOTHING
         arcs = [c for c in arcs if seen and _lacks_partners(best.refit, c)]
