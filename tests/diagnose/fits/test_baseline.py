@@ -29,6 +29,9 @@ class Stage:
     highest: float
     tests: tuple[Any, ...]
 
+    def with_tests(self, tests: Sequence[Any]) -> Stage:
+        return Stage(self.highest, tuple(tests))
+
 
 def stage(_setup: Any, tests: Sequence[Any], *_: Any) -> Stage:
     return Stage(max((t.highest for t in tests), default=0.0), tuple(tests))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -93,15 +93,9 @@ def baseline(
     z = np.zeros(len(constants))
     valleys: tuple[np.ndarray, ...] = ()
     for setup in tested:
-        own = [tests[t.name] for t in setup.tests if t.name in tests]
-        study, z, valleys = _with_step(study, z, setup, own, settings)
-    whole = study.with_stages(
-        tuple(
-            replace(s, tests=tuple(tests[t.name] for t in s.setup.tests if t.name in tests))
-            for s in study.stages
-        )
-    )
-    return baseline_at(whole, z, valleys)
+        study, z, valleys = _with_step(study, z, setup, _measured(setup, tests), settings)
+    whole = tuple(s.with_tests(_measured(s.setup, tests)) for s in study.stages)
+    return baseline_at(study.with_stages(whole), z, valleys)
 
 
 def baseline_at(study: StudyModel, z: np.ndarray, valleys: tuple[np.ndarray, ...]) -> Baseline:
@@ -112,11 +106,16 @@ def baseline_at(study: StudyModel, z: np.ndarray, valleys: tuple[np.ndarray, ...
     study : with all tests.
     z, valleys : constants there, and at other optima.
     """
-    free_tests = tuple(replace(s, tests=tuple(_leading(s.tests))) for s in study.stages)
+    free_tests = tuple(s.with_tests(_leading(s.tests)) for s in study.stages)
     z = refit(Hypothesis(study.with_stages(free_tests)), z).z
     free = evaluated(Hypothesis(study), z)
     same = all(t.support == FREE for s in study.stages for t in s.tests)
     return Baseline(study, free, free if same else refit(Hypothesis(study), z), valleys)
+
+
+def _measured(setup: StageSetup, tests: Mapping[str, MeasuredTest]) -> Sequence[MeasuredTest]:
+    """The tests of a step that were measured."""
+    return [tests[t.name] for t in setup.tests if t.name in tests]
 
 
 def _leading(tests: Sequence[MeasuredTest]) -> Sequence[MeasuredTest]:
@@ -135,7 +134,7 @@ def _with_step(
     trials = trials_around(z, places, settings.seed)
     snapshots = _materials(study, setup, trials)[:SNAPSHOTS]
     stage = stage_model(setup, tests, snapshots, settings.density)
-    study = study.with_stages((*study.stages, replace(stage, tests=tuple(_leading(tests)))))
+    study = study.with_stages((*study.stages, stage.with_tests(_leading(tests))))
     # constants of earlier steps stay while new ones are sought
     wide = wide_optima(Hypothesis(study), trials, most=MOST)
     wide = with_other_sides(Hypothesis(study), wide, places)
