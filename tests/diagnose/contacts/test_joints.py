@@ -14,7 +14,7 @@ from statorhom.diagnose.contacts.joint_basis import JoinedMode, JointBasis, join
 from statorhom.diagnose.measured.feature import SINGLE
 from statorhom.materials.hooke import Hooke
 from statorhom.mesh.hex_mesh import HalfPitchMesh
-from statorhom.model.affine import Material, assemble, hooke_coefficients
+from statorhom.model.affine import Material, Materials, assemble, hooke_coefficients
 from statorhom.model.broken.basis import symmetric_basis
 from statorhom.model.broken.cells import Sectors
 from statorhom.model.broken.change import PieceChange
@@ -40,7 +40,9 @@ def basis() -> JointBasis:
 def trained() -> JointBasis:
     """Beside arcs on either side of 110° and a hundredth of the stiffness."""
     mesh = stator_mesh(SLOTS, ("stack", "wound"))
-    arcs = [Joint(WOUND, BOND, BOND, (0.0, np.deg2rad(110.0) * f), 0.01 / f**2) for f in (0.9, 1.1)]
+    arcs = [
+        (MATERIALS, Joint(WOUND, BOND, BOND, (0.0, np.deg2rad(110.0) * f), 0.01 / f**2)) for f in (0.9, 1.1)
+    ]
     return joint_basis(mesh, WOUND, MATERIALS, TOP, range(4), may_differ=True, arcs=arcs)
 
 
@@ -49,7 +51,7 @@ def loose() -> JointBasis:
     """Beside arcs on either side of `LOOSE`, within which the winding moves by itself."""
     mesh = stator_mesh(SLOTS, ("stack", "wound"))
     (_, width), ratio = LOOSE.arc, LOOSE.ratio
-    arcs = [replace(LOOSE, arc=(0.0, width * f), ratio=ratio / f**2) for f in (0.9, 1.1)]
+    arcs = [(MATERIALS, replace(LOOSE, arc=(0.0, width * f), ratio=ratio / f**2)) for f in (0.9, 1.1)]
     return joint_basis(mesh, WOUND, MATERIALS, TOP, range(4), may_differ=True, arcs=arcs)
 
 
@@ -85,12 +87,16 @@ def test_slopes_by_the_winding_are_those_of_the_full_model(basis: JointBasis) ->
 
 
 def on_the_mesh(
-    width: float, ratio: float, highest_hz: float = 3000.0, mesh: HalfPitchMesh | None = None
+    width: float,
+    ratio: float,
+    highest_hz: float = 3000.0,
+    mesh: HalfPitchMesh | None = None,
+    materials: Materials = MATERIALS,
 ) -> np.ndarray:
     """Frequencies (Hz) of the full model."""
     half = split(mesh or stator_mesh(SLOTS, ("stack", "wound")), WOUND)
     joint = contact(half, WOUND, BOND, BOND)
-    full_basis = symmetric_basis(assemble(half), MATERIALS, highest_hz, margin=1.5, contact=joint.matrix)
+    full_basis = symmetric_basis(assemble(half), materials, highest_hz, margin=1.5, contact=joint.matrix)
     share = Sectors(np.array([[0.0, np.pi / half.slots]]), half.slots).share_of_arc(-width / 2, width / 2)
     weights = np.repeat(ratio**share - 1, len(joint.pieces), axis=0)
     return solve_broken(full_basis, [PieceChange(joint.pieces, None, weights)]).frequencies_hz
@@ -118,11 +124,27 @@ def test_a_weak_arc_shifts_and_splits_as_in_the_full_model(
     assert split_hz == pytest.approx(np.ptp(near), abs=part * (bonded - near.mean()))
 
 
+def test_beside_another_winding_arcs_that_were_solved_with_it_are_as_in_the_full_model(
+    trained: JointBasis,
+) -> None:
+    """Its modes are no sums of those of a winding of ten times the stiffness: these stand higher by a thirteenth."""
+    soft = Material(Hooke(0.1 * MATERIALS["winding"].hooke.matrix), MATERIALS["winding"].density)
+    materials = {**MATERIALS, "winding": soft, "overhang": soft}
+    arc = Joint(WOUND, BOND, BOND, (0.0, np.deg2rad(110.0)), 0.01)
+    arcs = [(m, arc) for m in (MATERIALS, materials)]
+    mesh, top = stator_mesh(SLOTS, ("stack", "wound")), 1500.0
+    knowing = joint_basis(mesh, WOUND, MATERIALS, top, range(2, 3), may_differ=True, arcs=arcs)
+    exact = on_the_mesh(arc.arc[1], arc.ratio, top, mesh, materials)[:2].mean()
+    missing, found = (np.exp(own.solve(materials, arc)[2, 0, 0].log_f) for own in (trained, knowing))
+    assert missing > exact + 50.0
+    assert found == pytest.approx(exact, abs=0.5)
+
+
 def test_one_tooth_of_many_parts_as_in_the_full_model() -> None:
     """That takes all harmonics of the mesh: without the highest ones next to nothing of the shift is left."""
     mesh = stator_mesh(24, ("stack", "wound"), tooth_width_mm=4.5)
     tooth = Joint(WOUND, BOND, BOND, (0.0, np.deg2rad(15.0)), 1e-3)
-    own = joint_basis(mesh, WOUND, MATERIALS, 3000.0, range(4), may_differ=True, arcs=[tooth])
+    own = joint_basis(mesh, WOUND, MATERIALS, 3000.0, range(4), may_differ=True, arcs=[(MATERIALS, tooth)])
     even, found = (own.solve(MATERIALS, joint)[2, 0, 0] for joint in (Joint(WOUND, BOND, BOND), tooth))
     bonded, mean = np.exp(even.log_f), np.exp(found.log_f)
     exact = on_the_mesh(tooth.arc[1], tooth.ratio, 2000.0, mesh)[:2]

@@ -13,9 +13,9 @@ from statorhom.diagnose.fits import valleys as valleys_of
 from statorhom.diagnose.fits.explanations import NARROWING
 from statorhom.diagnose.fits.valleys import FAR_BEHIND
 from statorhom.diagnose.searches import arc_search as module
-from statorhom.diagnose.searches.arc_search import ANYWHERE, LAST, NEARBY, best_arc
+from statorhom.diagnose.searches.arc_search import ANYWHERE, NEARBY, best_arc
 from statorhom.diagnose.searches.refit_starts import Start
-from statorhom.errors import SolverError
+from statorhom.diagnose.searches.sharper import ITSELF
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.effects.interface_debond import ARC, LOSS, RATIO
 from statorhom.physics.parameter import angle
@@ -55,17 +55,23 @@ class Search:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.followed: dict[float, list[np.ndarray]] = {}  # by the width of the valleys
-        self.judged: list[np.ndarray] = []
+        self.known: list[Sequence[np.ndarray]] = []  # by bases that were made in turn
         monkeypatch.setattr(module, "replace", lambda h, **changes: h.within(changes))
         monkeypatch.setattr(module, "in_few_vectors", lambda *_: Hypothesis("few"))
         monkeypatch.setattr(module, "by_degrees", self.by_degrees)
         monkeypatch.setattr(module, "refitted", self.refitted)
         monkeypatch.setattr(module, "in_valleys", self.in_valleys)
         monkeypatch.setattr(module, "narrowed", self.narrowed)
-        monkeypatch.setattr(module, "in_its_own_model", lambda *_, **__: Hypothesis("own"))
+        monkeypatch.setattr(module, "in_its_own_model", self.knowing)
+        monkeypatch.setattr(module, "around", lambda _, points, __: points)
         monkeypatch.setattr(module, "in_few_vectors_near", self.near)
-        monkeypatch.setattr(module, "refit_objective", self.objective)
         monkeypatch.setattr(valleys_of, "refit_objective", self.objective)
+
+    def knowing(self, hypothesis: Hypothesis, z: np.ndarray, *, elsewhere: Any, **told: Any) -> Hypothesis:
+        # mesh factors are those of the start, which the bases know too
+        assert z[0] == 0.4 and told == {"quick": True, "around": ITSELF}
+        self.known.append(elsewhere)
+        return hypothesis
 
     @staticmethod
     def near(hypothesis: Hypothesis, _: np.ndarray, places: Sequence[int]) -> Hypothesis:
@@ -82,7 +88,6 @@ class Search:
 
     def by_degrees(self, hypothesis: Hypothesis, z: np.ndarray) -> Any:
         assert hypothesis.name == "own"
-        self.judged.append(z)
         return self.refitted(hypothesis, z)
 
     def refitted(self, hypothesis: Hypothesis, z: np.ndarray) -> Any:
@@ -116,11 +121,15 @@ def test_the_best_winding_and_arc_of_all_that_are_tried_is_found(search: Search)
     assert z[0] == 0.4
     assert found["angle_rad"] == pytest.approx(PLACE, abs=np.pi / module.PLACES)
     assert search.objective(Hypothesis(), z) < 0.5
-    # as far as valleys are wider than what the common bases miss, and no further
-    (most,) = ANYWHERE.followed
-    assert {d: len(found) for d, found in search.followed.items()} == {NARROWING[0]: most}
-    # in models of their own, and the best of them in that of what this led to
-    assert len(search.judged) == ANYWHERE.models + LAST
+    # as far as valleys are wider than what the bases miss, and fewer and fewer all the way in bases that know them
+    (most,), again = ANYWHERE.followed, sum(ANYWHERE.again)
+    counts = [len(search.followed[discrepancy]) for discrepancy in (*NARROWING, 0.0)]
+    assert counts == [most + again, again, 2 * again]
+    # first windings and arcs that lie far apart, then what these led to
+    first, *rest = search.known
+    assert len(first) == ANYWHERE.known and [len(known) for known in rest] == list(ANYWHERE.again)
+    assert np.ptp(np.array(first)[:, PLACES], axis=0).min() > 1.5  # of prior standard deviations
+    assert {z.tobytes() for z in rest[0]} <= {z.tobytes() for z in search.followed[NARROWING[0]][:most]}
 
 
 @pytest.mark.usefixtures("search")
@@ -128,23 +137,6 @@ def test_another_draw_tries_other_points() -> None:
     first, second = (best_arc(start(), WINDING, 100.0, ANYWHERE, draw) for draw in (0, 1))
     assert first is not None and second is not None
     assert not np.array_equal(first, second)
-
-
-def test_the_best_is_what_is_best_in_the_model_of_where_it_was_led(monkeypatch: pytest.MonkeyPatch) -> None:
-    """One leaves 40 in its first model, and 330 in the model of what it became there."""
-    first = {1: 40.0, 2: 45.0, 3: 50.0, 4: 300.0}
-    seen: list[float] = []
-
-    def judged(_: Any, __: Any, z: np.ndarray) -> module._Judged:
-        again = len(seen) >= len(first)
-        seen.append(z[0])
-        name = int(z[0])
-        return module._Judged(330.0 if again and name == 1 else first[name], z)
-
-    monkeypatch.setattr(module, "_judged", judged)
-    found: Any = [SimpleNamespace(z=np.array([float(name)]), objective=0.0) for name in first]
-    assert module._best(Hypothesis(), PLACES, found, ANYWHERE.models).tolist() == [2.0]  # type: ignore[arg-type]
-    assert seen == [1.0, 2.0, 3.0, 4.0, 1.0, 2.0, 3.0]
 
 
 @pytest.mark.usefixtures("search")
@@ -168,12 +160,12 @@ def test_points_nearby_have_a_winding_like_the_first_and_narrower_arcs() -> None
     assert min(widths) < ANYWHERE.widths_deg[0] and max(widths) < 1.01 * NEARBY.widths_deg[1]
 
 
-def test_the_best_of_what_is_nearby_gets_no_model_before_the_next(search: Search) -> None:
+def test_the_best_of_what_is_nearby_needs_no_other_bases(search: Search) -> None:
     begun = start()
     begun.z[list(WINDING)] = 0.4, -0.8
     z = best_arc(begun, WINDING, 100.0, NEARBY)
     assert z is not None and search.objective(Hypothesis(), z) < 0.5
-    assert search.judged == []
+    assert search.known == []
     # fewer and fewer are followed as the valleys narrow, the last ones once more from the best places of their arcs
     most, fewer, fewest = NEARBY.followed
     counts = [len(search.followed[discrepancy]) for discrepancy in (*NARROWING, 0.0)]
@@ -184,16 +176,6 @@ def test_the_best_of_what_is_nearby_gets_no_model_before_the_next(search: Search
 def test_the_same_points_give_the_same_answer() -> None:
     first, second = (best_arc(start(), WINDING, 100.0, ANYWHERE) for _ in range(2))
     assert first is not None and np.array_equal(first, second)  # type: ignore[arg-type]
-
-
-@pytest.mark.usefixtures("search")
-def test_a_winding_without_a_model_of_its_own_is_judged_last(monkeypatch: pytest.MonkeyPatch) -> None:
-    def impossible(*_: Any, **__: Any) -> Any:
-        raise SolverError("no such body")
-
-    monkeypatch.setattr(module, "in_its_own_model", impossible)
-    judged = module._judged(Hypothesis(), PLACES, np.zeros(7))  # type: ignore[arg-type]
-    assert judged.objective == np.inf and not judged.z.any()
 
 
 @pytest.mark.parametrize("direct", [True, False])
@@ -207,14 +189,16 @@ def test_of_both_ways_into_a_model_of_its_own_the_better_one_counts(
     astray = np.r_[best[:3], ARCS.parameters[0].internal(20.0), best[4:]]
     monkeypatch.setattr(module, other, lambda h, _: ways[other](h, astray))
     monkeypatch.setattr(module, "_turned", lambda found: found)
-    judged = module._judged(Hypothesis(), PLACES, best)  # type: ignore[arg-type]
-    assert np.array_equal(judged.z, best)
+    own: Any = Hypothesis("own")
+    assert np.array_equal(module.followed_near(own, PLACES, best), best)
 
 
 @pytest.mark.usefixtures("search")
 def test_in_a_model_of_its_own_an_arc_is_turned_to_its_best_place() -> None:
-    judged = module._judged(Hypothesis(), PLACES, start().z)  # type: ignore[arg-type]
-    assert effect(judged.z)["angle_rad"] == pytest.approx(PLACE, abs=np.pi / module.PLACES)
+    own: Any = Hypothesis("own")
+    z = module.followed_near(own, PLACES, start().z)
+    assert z is not None
+    assert effect(z)["angle_rad"] == pytest.approx(PLACE, abs=np.pi / module.PLACES)
 
 
 @pytest.mark.usefixtures("search")
@@ -223,6 +207,6 @@ def test_where_no_winding_can_be_followed_nothing_is_found(monkeypatch: pytest.M
     assert best_arc(start(), WINDING, 100.0, ANYWHERE) is None
 
 
-def test_an_arc_that_explains_no_more_than_is_explained_without_gets_no_model(search: Search) -> None:
+def test_an_arc_that_explains_no_more_than_is_explained_without_gets_no_bases(search: Search) -> None:
     assert best_arc(start(), WINDING, -FAR_BEHIND, ANYWHERE) is None
-    assert search.judged == []
+    assert [len(known) for known in search.known] == [ANYWHERE.known]

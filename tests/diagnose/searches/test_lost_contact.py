@@ -14,7 +14,7 @@ from statorhom.diagnose.evidence.decision import NEAR_RIVAL, OVER_NOTHING
 from statorhom.diagnose.searches import lost_contact as module
 from statorhom.diagnose.searches import refit_starts as starts_module
 from statorhom.diagnose.searches import typical_materials as typical
-from statorhom.diagnose.searches.arc_search import ANYWHERE, NEARBY, TRAINED, Reach
+from statorhom.diagnose.searches.arc_search import ANYWHERE, NEARBY, Reach
 from statorhom.diagnose.searches.lost_contact import NARROW, ROUNDS, with_lost_contact
 from statorhom.diagnose.searches.refit_starts import Start
 from statorhom.errors import SolverError
@@ -36,7 +36,7 @@ class Search:
     def __init__(
         self, monkeypatch: pytest.MonkeyPatch, objectives: Sequence[float] = (90.0, 40.0, 35.0)
     ) -> None:
-        self.trained: list[np.ndarray] = []
+        self.begins: list[np.ndarray] = []  # of the typical winding's models
         self.begun: list[tuple[np.ndarray, Sequence[int]]] = []
         self.objectives = list(objectives)
         self.draws: list[int] = []
@@ -57,7 +57,7 @@ class Search:
         monkeypatch.setattr(module, "explained", self.explained)
         monkeypatch.setattr(typical, "blank", lambda h, _: h)
         monkeypatch.setattr(typical, "evaluated", lambda h, z: SimpleNamespace(hypothesis=h, z=z))
-        monkeypatch.setattr(typical, "in_its_own_model", self.model)
+        monkeypatch.setattr(typical, "in_its_own_model", self.usual)
         # the base with what leads' constants, and an arc's start in another model
         monkeypatch.setattr(module, "replace", lambda of, **new: of.__class__(**{**vars(of), **new}))
         monkeypatch.setattr(module, "evaluated", lambda h, z: SimpleNamespace(hypothesis=h, z=z))
@@ -104,15 +104,14 @@ class Search:
     def explained(self, r: Any, _: Any) -> Any:
         return self.explanation(-r.objective, r, adequacy=0.5 if r.objective < 30.0 else 0.0)
 
-    def model(
-        self, hypothesis: Any, z: np.ndarray, *, quick: bool = False, arcs: Any = (), around: Any = ()
-    ) -> Any:
+    def usual(self, hypothesis: Any, z: np.ndarray) -> Any:
+        # the declared winding's mesh factors are none of a typical one, which gets its own
+        self.begins.append(z)
+        return hypothesis
+
+    def model(self, hypothesis: Any, _: np.ndarray, *, quick: bool = False, around: Any = ()) -> Any:
         if around:
             assert around == NARROW and quick
-        if arcs:
-            # the declared winding's mesh factors are none of a typical one
-            assert arcs == TRAINED and not quick
-            self.trained.append(z)
         return hypothesis
 
     @staticmethod
@@ -138,7 +137,7 @@ def test_the_search_begins_beside_the_winding_that_is_usual(monkeypatch: pytest.
     (found,) = with_lost_contact(search.base, [], [LUMP, ARCS], {})
     assert np.array_equal(found.refit.z, FOUND)
     # the stack stays as the declared model has it
-    assert [z.tolist() for z in search.trained] == [[0.4, 0.0, 0.0, 0.0]]
+    assert [z.tolist() for z in search.begins] == [[0.4, 0.0, 0.0, 0.0]]
     assert search.worth == 200.0 and search.reach is ANYWHERE
     ((z, winding),) = search.begun
     assert z.tolist() == [0.4, *np.zeros(7)] and list(winding) == [1, 2, 3]
@@ -172,7 +171,7 @@ def test_another_draw_is_tried_where_the_first_one_leads_to_nothing_that_explain
     (found,) = with_lost_contact(search.base, [], [ARCS], {})
     assert found.refit.objective == best
     assert search.draws == draws and not search.objectives
-    assert len(search.trained) == 1  # one model of the typical winding
+    assert len(search.begins) == 1  # one model of the typical winding
 
 
 def test_nothing_is_sought_where_something_explains_the_misfit(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -208,7 +207,7 @@ def test_behind_what_parts_lines_as_an_arc_does_arcs_are_sought_beside_its_windi
     search = Search(monkeypatch, (25.0,))
     (found,) = with_lost_contact(search.base, [lead(search, PLACED)], [ARCS], {})
     assert found.refit.objective == 25.0
-    assert search.reach is NEARBY and search.worth == 20.0 and not search.trained
+    assert search.reach is NEARBY and search.worth == 20.0 and not search.begins
     ((z, _),) = search.begun
     assert z.tolist() == [0.5, 0.1, 0.2, 0.3, *np.zeros(4)]
 

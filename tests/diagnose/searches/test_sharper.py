@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from statorhom.diagnose.contacts.joint_training import KnownArc
 from statorhom.diagnose.fits.explanations import Explanation
 from statorhom.diagnose.searches import sharper as module
 from statorhom.diagnose.searches.sharper import AROUND, ITSELF, _arcs, at_its_own_materials, sharpened
-from statorhom.errors import SolverError
+from statorhom.errors import MaterialError, SolverError
 from statorhom.physics.action import Action, Joint
 
 WOUND = ("winding", "overhang")
@@ -30,7 +31,7 @@ def test_lost_contacts_are_solved_on_either_side_of_the_found_one() -> None:
 
 
 def test_no_arc_is_wider_than_the_circle() -> None:
-    assert max(width for width, _ in _arcs([joint(6.0, 0.1)], AROUND)) == pytest.approx(2 * np.pi)
+    assert max(arc.width_rad for arc in _arcs([joint(6.0, 0.1)], AROUND)) == pytest.approx(2 * np.pi)
 
 
 def test_contacts_that_are_the_same_all_around_need_no_arcs() -> None:
@@ -66,7 +67,21 @@ def test_what_is_reported_is_solved_at_its_own_materials(
 
 
 def test_an_arc_can_be_solved_as_it_is_alone() -> None:
-    assert _arcs([joint(1.0, 1e-3)], (1.0,)) == ((1.0, 1e-3),)
+    assert _arcs([joint(1.0, 1e-3)], (1.0,)) == (KnownArc(1.0, 1e-3),)
+
+
+def test_other_coordinates_arcs_are_solved_with_the_materials_there() -> None:
+    """Where no stator has them there is nothing to solve."""
+
+    def materials(_: Any, z: np.ndarray) -> str:
+        if z[0] < 0:
+            raise MaterialError("no such body")
+        return f"winding {z[0]:.0f}"
+
+    hypothesis: Any = SimpleNamespace(materials=materials, actions=lambda z: [joint(z[1], 1e-3)])
+    stage: Any = None
+    found = module._arcs_elsewhere(hypothesis, stage, [np.array(z) for z in ((1, 0.5), (-1, 0.6), (2, 0.7))])
+    assert list(found) == [KnownArc(0.5, 1e-3, "winding 1"), KnownArc(0.7, 1e-3, "winding 2")]  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(("leads", "around"), [(True, AROUND), (False, ITSELF)])

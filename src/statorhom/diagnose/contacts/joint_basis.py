@@ -171,7 +171,7 @@ def joint_basis(
     orders: Sequence[int],
     *,
     may_differ: bool,
-    arcs: Sequence[Joint] = (),
+    arcs: Sequence[tuple[Materials, Joint]] = (),
 ) -> JointBasis:
     """Bases of a joint.
 
@@ -183,7 +183,8 @@ def joint_basis(
     highest_hz : upper end of the band.
     orders : harmonics that are named.
     may_differ : whether the contact may be weaker over an arc.
-    arcs : around θ = 0, near which it is predicted as the mesh has it; others, and all without, roughly.
+    arcs : around θ = 0, and the materials there, near which it is predicted as the mesh has it; others, and all
+        without, roughly.
     """
     apart = split(mesh, regions)
     pieces = (contact(apart, regions, 1.0, 0.0).pieces, contact(apart, regions, 0.0, 1.0).pieces)
@@ -191,7 +192,7 @@ def joint_basis(
     joints = [k * (unit[0] + unit[1]) for k in LADDER]
     ring = ring_basis(assemble(apart), [materials], highest_hz, orders, joints)
     if arcs:
-        ring = with_arcs(ring, pieces, materials, arcs)
+        ring = with_arcs(ring, pieces, arcs)
     elif may_differ:
         ring = with_local_fields(ring, materials, unit[0] + unit[1])
     springs = []

@@ -7,21 +7,39 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
 
-from statorhom.diagnose.bases.ring_basis import RingBasis, affine_terms, grown
+from statorhom.diagnose.bases.ring_basis import RingBasis, affine_terms, grown, mark_of
 from statorhom.diagnose.contacts.joint_fields import unsolved, with_local_fields
 from statorhom.diagnose.contacts.joint_solution import PARTS, Arcs
+from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.model.affine import Materials
 from statorhom.model.broken.pieces import Pieces
 from statorhom.model.radial_profile import radial_profile
 from statorhom.physics.action import Joint
 
+EACH = 5  # vectors of one problem that every arc may bring
+
+
+class KnownArc(NamedTuple):
+    """An arc of lost contact that bases know as the mesh has it.
+
+    Parameters
+    ----------
+    width_rad, ratio : of the contact there to that elsewhere.
+    materials : of the regions; None where they are the reference's.
+    """
+
+    width_rad: float
+    ratio: float
+    materials: Materials | None = None
+
 
 def with_arcs(
-    ring: RingBasis, pieces: tuple[Pieces, Pieces], materials: Materials, trainings: Sequence[Joint]
+    ring: RingBasis, pieces: tuple[Pieces, Pieces], trainings: Sequence[tuple[Materials, Joint]]
 ) -> RingBasis:
     """The bases with what arcs like some need, and the harmonics that these bring in.
 
@@ -29,17 +47,30 @@ def with_arcs(
     ----------
     ring : on a split mesh, its modes at several even contacts.
     pieces : of the contact, normal and tangential, per unit stiffness (m²).
-    materials : at which the arcs are solved.
-    trainings : arcs around θ = 0, all in the same intact contact.
+    trainings : materials, the first ones the ring's, and arcs around θ = 0, all in the same intact contact.
     """
     unit = pieces[0].matrix(np.ones(len(pieces[0]))), pieces[1].matrix(np.ones(len(pieces[1])))
     known = {p.space.kind: p for p in ring.problems}
     profile, terms = radial_profile(ring.model.mesh), affine_terms(ring.model)
-    begun = with_local_fields(ring, materials, sp.csr_array(unit[0] + unit[1]))
-    arcs = Arcs(begun, pieces, unit, materials, trainings[0])
+    begun = with_local_fields(ring, trainings[0][0], sp.csr_array(unit[0] + unit[1]))
+    solvers = [
+        (Arcs(begun, pieces, unit, materials, joints[0]), joints)
+        for materials, joints in _by_materials(trainings)
+    ]
+    # this process takes the first ones, whose factors weigh all others' parts
+    solved = side_by_side(lambda own: own[0].parts(own[1]), solvers, here=(0,))
+    most = max(PARTS, EACH * len(trainings))
     problems = []
-    for own, part in zip(arcs.problems, arcs.parts(trainings), strict=True):
+    for own, *parts in zip(solvers[0][0].problems, *solved, strict=True):
         old = known.get(own.space.kind, unsolved(own.space))
-        more = own.joined(old.basis, part, PARTS)[:, old.basis.shape[1] :]
+        more = own.joined(old.basis, np.hstack(parts), most)[:, old.basis.shape[1] :]
         problems.append(grown(old, more, terms, profile))
     return replace(ring, problems=tuple(problems))
+
+
+def _by_materials(trainings: Sequence[tuple[Materials, Joint]]) -> list[tuple[Materials, list[Joint]]]:
+    """The arcs of the same materials together: what is solved there, is solved once."""
+    found: dict[bytes, tuple[Materials, list[Joint]]] = {}
+    for materials, joint in trainings:
+        found.setdefault(mark_of(materials), (materials, []))[1].append(joint)
+    return list(found.values())

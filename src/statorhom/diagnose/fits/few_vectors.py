@@ -45,12 +45,26 @@ def in_few_vectors_near(hypothesis: Hypothesis, z: np.ndarray, places: Sequence[
     z : all coordinates.
     places : of those that will be moved: a winding's and an arc's.
     """
-    points = [z]
-    for row in qmc.LatinHypercube(len(places), seed=SEED).random(NEAR):
-        point = z.copy()
-        point[list(places)] += REACH * (2 * row - 1)
-        points.append(np.clip(point, *hypothesis.limits()))
-    return in_few_vectors(hypothesis, points, MORE)
+    return in_few_vectors(hypothesis, around(hypothesis, [z], places), MORE)
+
+
+def around(hypothesis: Hypothesis, points: Sequence[np.ndarray], places: Sequence[int]) -> list[np.ndarray]:
+    """Some points, and others around each of them.
+
+    Parameters
+    ----------
+    hypothesis : whose coordinates these are.
+    points : coordinates.
+    places : of those that will be moved.
+    """
+    found = []
+    for z in points:
+        found.append(z)
+        for row in qmc.LatinHypercube(len(places), seed=SEED).random(NEAR):
+            point = z.copy()
+            point[list(places)] += REACH * (2 * row - 1)
+            found.append(np.clip(point, *hypothesis.limits()))
+    return found
 
 
 def _samples(hypothesis: Hypothesis, stage: StageModel, z: np.ndarray) -> Iterator[tuple[Materials, Joint]]:

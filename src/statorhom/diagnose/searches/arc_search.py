@@ -1,10 +1,11 @@
 """Arcs of lost contact, sought beside windings all over the prior, or like one that is known.
 
 A contact that is lost over a wide arc lets much of the winding go, and few frequencies tell how stiff the rest is:
-there are many valleys nearly as deep. In bases that know two such arcs, and in the few vectors that matter there,
-thousands of windings and arcs are tried where frequencies alone count, and the best of them followed as far as valleys
-are wider than what the bases miss. Which of them is right shows in models of their own: there a wrong valley is left
-with ten times the misfit, and followed further without one the right ones are led astray.
+there are many valleys nearly as deep. In bases that know such arcs beside windings all over the prior (`known`), and in
+the few vectors that matter there, thousands of windings and arcs are tried where frequencies alone count, and the best
+of them followed as far as valleys are wider than what the bases miss. Then bases are made that know these, and what
+they lead to is followed and compared there, in one model: in bases that know only one of them, many right windings are
+led astray.
 """
 
 from __future__ import annotations
@@ -12,26 +13,23 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from operator import attrgetter
 from typing import TypeVar
 
 import numpy as np
 from scipy.stats import qmc
 
 from statorhom.diagnose.fits.explanations import COARSE, NARROWING, by_degrees, in_valleys, narrowed, refitted
-from statorhom.diagnose.fits.few_vectors import in_few_vectors, in_few_vectors_near
+from statorhom.diagnose.fits.few_vectors import around, in_few_vectors, in_few_vectors_near
 from statorhom.diagnose.fits.hypothesis import Hypothesis
-from statorhom.diagnose.fits.refit import Refit, refit_objective
+from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.fits.valleys import FAR_BEHIND, apart, different, nearest_first, over_the_prior
 from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.diagnose.searches.refit_starts import Start
 from statorhom.diagnose.searches.sharper import ITSELF, in_its_own_model
-from statorhom.errors import StatorhomError
 
-TRAINED = ((np.deg2rad(60.0), 1e-4), (np.deg2rad(140.0), 1e-4))  # widths and ratios that the bases know
 WIDTH, RATIO, ANGLE = "arc_deg", "contact_ratio", "angle_rad"
 PLACES = 24  # angles where a narrow valley begins
-LAST = 3  # of what was judged in models of their own, that get another one
+KNOWN = 7  # seed of what bases know, which is none of a draw
 
 _T = TypeVar("_T")
 
@@ -46,21 +44,24 @@ class Reach:
     aside : prior standard deviations to either side of the start's winding; None where windings are tried all over
         the prior.
     discrepancy : of the valleys in which points are scored.
-    samples : windings and arcs whose modes span the few vectors.
+    known : windings and arcs that the bases know as the mesh has them; none where they were made for what is sought.
+    samples, vectors : windings and arcs whose modes span the few vectors of one family.
     trials : points.
     followed : how many of them are followed; and, where the bases were made for what is sought, fewer as the valleys
         narrow by degrees.
-    models : how many of the optima are compared in models of their own; none where the bases were made for them.
+    again : how many of the optima are followed once more in bases that know them, again and again.
     """
 
     widths_deg: tuple[float, float]
     ratios: tuple[float, float]
     aside: float | None
     discrepancy: float
+    known: int
     samples: int
+    vectors: int
     trials: int
     followed: tuple[int, ...]
-    models: int
+    again: tuple[int, ...]
 
     def windings(self, parts: np.ndarray, around: np.ndarray) -> np.ndarray:
         """Coordinates of a winding for parts (0 … 1) of the reach."""
@@ -79,20 +80,24 @@ ANYWHERE = Reach(
     ratios=(2e-5, 3e-3),
     aside=None,
     discrepancy=COARSE,
-    samples=48,
+    known=8,
+    samples=96,
+    vectors=200,
     trials=1500,
     followed=(24,),
-    models=4,
+    again=(8, 4),
 )
 NEARBY = Reach(
     widths_deg=(12.0, 90.0),
     ratios=(5e-5, 5e-3),
     aside=0.5,
     discrepancy=NARROWING[0],
+    known=0,
     samples=24,
+    vectors=80,
     trials=300,
     followed=(8, 6, 4),
-    models=0,
+    again=(),
 )
 
 
@@ -103,13 +108,15 @@ def best_arc(
 
     Parameters
     ----------
-    start : an arc, in bases that know arcs such as are sought.
+    start : an arc; where no bases are made to know others, in such as were made for what is sought.
     winding : places of the constants that are sought with it.
     worth : objective that is reached without; few vectors may miss the arc's by some.
     reach : where it is sought.
     draw : of the points that are tried: another one may lead to a valley that the first one missed.
     """
-    few = in_few_vectors(start.hypothesis, _points(start, winding, reach, reach.samples, 2 * draw + 1))
+    known = _points(start, winding, reach, reach.known, KNOWN)
+    samples = _points(start, winding, reach, reach.samples, 2 * draw + 1)
+    few = in_few_vectors(_knowing(start, known), samples, reach.vectors)
     rough = replace(few, discrepancy=reach.discrepancy, trained=False)
     nearest = nearest_first(rough, _points(start, winding, reach, reach.trials, 2 * draw))
     most, *fewer = reach.followed
@@ -117,9 +124,25 @@ def best_arc(
     for follow, count in zip((_narrower, _turned), fewer, strict=False):
         found = _optima(follow, found[:count], few)
     found = [r for r in found if r.objective < worth + FAR_BEHIND]
-    if not found:
-        return None
-    return _best(start.hypothesis, varied(start.hypothesis, winding), found, reach.models)
+    places = varied(start.hypothesis, winding)
+    for count in reach.again if found else ():
+        known = [r.z for r in found[:count]]
+        few = in_few_vectors(_knowing(start, known), around(start.hypothesis, known, places), reach.vectors)
+        found = _optima(partial(_followed, few), known, few) or found
+    return found[0].z if found else None
+
+
+def _knowing(start: Start, points: Sequence[np.ndarray]) -> Hypothesis:
+    """In bases that know some windings and arcs as the mesh has them."""
+    if not points:
+        return start.hypothesis
+    return in_its_own_model(start.hypothesis, start.z, quick=True, around=ITSELF, elsewhere=points)
+
+
+def _followed(few: Hypothesis, z: np.ndarray) -> Refit | None:
+    """The optimum next to a point in bases that know it: as valleys narrow, its arc turned to its best place."""
+    wide = in_valleys(few, z, NARROWING[0])
+    return None if wide is None else _turned(_narrower(wide) or wide)
 
 
 def _points(start: Start, winding: Sequence[int], reach: Reach, count: int, seed: int) -> list[np.ndarray]:
@@ -178,48 +201,6 @@ def _all_around(hypothesis: Hypothesis, z: np.ndarray) -> list[np.ndarray]:
 def varied(hypothesis: Hypothesis, winding: Sequence[int]) -> list[int]:
     """Places of what is sought: a winding's constants, and the width and the ratio of the arc."""
     return [*winding, _place(hypothesis, WIDTH), _place(hypothesis, RATIO)]
-
-
-@dataclass(frozen=True, eq=False)
-class _Judged:
-    """The optimum next to a point in a model of its own, which is not handed on: to make it again costs less.
-
-    Parameters
-    ----------
-    objective, z : in all vectors.
-    """
-
-    objective: float
-    z: np.ndarray
-
-
-def _best(hypothesis: Hypothesis, places: Sequence[int], found: Sequence[Refit], models: int) -> np.ndarray:
-    """Of the first optima the one that leaves least in a model of its own, where that led it.
-
-    Each way into a model of its own may be led astray by lines of another order, and only the model of what it leads
-    to shows that: the last ones get one of that place, too.
-    """
-    if not models:
-        return found[0].z  # a model of its own is made by whoever asked
-    judge = partial(_judged, hypothesis, places)
-    judged = sorted(side_by_side(judge, [r.z for r in found[:models]]), key=attrgetter("objective"))
-    again = side_by_side(judge, [j.z for j in judged[:LAST]])
-    return min(again, key=attrgetter("objective")).z
-
-
-def _judged(hypothesis: Hypothesis, places: Sequence[int], z: np.ndarray) -> _Judged:
-    """The optimum next to a point where its materials and its arc are solved.
-
-    Mesh factors are its own too: those of a typical winding lead some of the right windings to a fifth of their shear.
-    """
-    try:
-        own = in_its_own_model(hypothesis, z, around=ITSELF)
-        near = followed_near(own, places, z)
-        if near is None:
-            return _Judged(np.inf, z)
-        return _Judged(refit_objective(own, near), near)
-    except (StatorhomError, KeyError):
-        return _Judged(np.inf, z)
 
 
 def followed_near(own: Hypothesis, places: Sequence[int], z: np.ndarray) -> np.ndarray | None:

@@ -31,7 +31,6 @@ from statorhom.diagnose.searches.arc_search import (
     ANYWHERE,
     NEARBY,
     RATIO,
-    TRAINED,
     WIDTH,
     Reach,
     best_arc,
@@ -47,7 +46,7 @@ from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
 
 ROUNDS = 3  # models of its own for the best one
-DRAWS = 2  # of windings and arcs all over the prior, while they lead to nothing that explains
+DRAWS = 1  # of windings and arcs all over the prior, while they lead to nothing that explains
 NARROW = 0.6, 1.6  # times the width of an arc's first start, that the bases know where narrow arcs are sought
 
 
@@ -121,7 +120,7 @@ def _beside_any(base: Refit, candidate: Candidate, worth: float) -> Refit | None
     base, candidate : the declared model, and the arc.
     worth : objective that is reached without an arc, its doubt included.
     """
-    typical = with_typical_materials(base, candidate.stage, arcs=TRAINED)
+    typical = with_typical_materials(base, candidate.stage)
     if typical is None:
         return None
     start, found = first_start(typical, candidate), []

@@ -7,11 +7,13 @@ valley that the right belief does not have.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
 
+from statorhom.diagnose.contacts.joint_training import KnownArc
 from statorhom.diagnose.evidence.decision import NEAR_RIVAL
 from statorhom.diagnose.fits.explanations import (
     ADEQUATE,
@@ -151,7 +153,7 @@ def in_its_own_model(
     z: np.ndarray,
     *,
     quick: bool = False,
-    arcs: tuple[tuple[float, float], ...] = (),
+    elsewhere: Sequence[np.ndarray] = (),
     around: tuple[float, ...] = AROUND,
 ) -> Hypothesis:
     """With basis and mesh factors of its own materials, and the local fields of its effects; to be paired anew.
@@ -160,7 +162,7 @@ def in_its_own_model(
     ----------
     hypothesis, z : what, and where.
     quick : whether the old mesh factors do, and the local fields that a basis holds of any such effects.
-    arcs : widths (rad) and ratios that a contact may be weaker over, beside those of the effects.
+    elsewhere : other coordinates, of which the contact is solved too where it is lost over an arc.
     around : times an effect's own arc, at which its contact is solved.
 
     Raises
@@ -169,9 +171,9 @@ def in_its_own_model(
         If no stator has these constants.
     """
     actions, stages = hypothesis.actions(z), []
-    arcs = (*arcs, *_arcs(actions, around))
     for stage in hypothesis.study.stages:
         materials = hypothesis.materials(stage, z)
+        arcs = (*_arcs(actions, around), *_arcs_elsewhere(hypothesis, stage, elsewhere))
         near = with_reference(stage, materials, arcs, {} if quick else _examples(stage, materials, actions))
         if not quick:
             near = near.with_error(mesh_error(stage.setup, near.ring, materials, stage.density))
@@ -190,12 +192,22 @@ def _examples(
     }
 
 
-def _arcs(actions: Sequence[Action], around: Sequence[float]) -> tuple[tuple[float, float], ...]:
-    """Widths and ratios around those of a contact that is weaker over an arc."""
+def _arcs(actions: Sequence[Action], around: Sequence[float]) -> tuple[KnownArc, ...]:
+    """Around those of a contact that is weaker over an arc."""
     arcs = [
         (a.joint.arc[1], a.joint.ratio) for a in actions if a.joint is not None and a.joint.arc is not None
     ]
-    return tuple((min(w * f, 2 * np.pi), q / f**2) for w, q in arcs for f in around)
+    return tuple(KnownArc(min(w * f, 2 * np.pi), q / f**2) for w, q in arcs for f in around)
+
+
+def _arcs_elsewhere(
+    hypothesis: Hypothesis, stage: StageModel, points: Sequence[np.ndarray]
+) -> Iterator[KnownArc]:
+    """Of other coordinates, with the materials there; none where no stator has these."""
+    for z in points:
+        with suppress(StatorhomError):
+            materials = hypothesis.materials(stage, z)
+            yield from (arc._replace(materials=materials) for arc in _arcs(hypothesis.actions(z), ITSELF))
 
 
 def refined(

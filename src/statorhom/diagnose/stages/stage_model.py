@@ -13,6 +13,7 @@ from statorhom.diagnose.bases.ring_basis import RingBasis, RingModes, mark_of, r
 from statorhom.diagnose.bases.scatter_weights import scatter_weights
 from statorhom.diagnose.bases.trained_basis import Examples, TrainedBasis, trained_basis
 from statorhom.diagnose.contacts.joint_basis import JointBasis, joint_basis
+from statorhom.diagnose.contacts.joint_training import KnownArc
 from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.diagnose.processes.memory import Memory
 from statorhom.diagnose.processes.side_by_side import workers
@@ -55,7 +56,7 @@ class StageModel:
     reference : materials at which broken symmetry and mesh factors are computed.
     error : mesh factors.
     density : of the mesh.
-    arcs : widths (rad) and ratios at which a contact that is weaker over an arc is predicted as the mesh has it.
+    arcs : at which a contact that is weaker over one is predicted as the mesh has it.
     examples : key of a training → further examples of its changes, which the basis holds well.
     """
 
@@ -68,7 +69,7 @@ class StageModel:
     _last: dict[bytes, tuple[frozenset[int], RingModes]] = field(default_factory=dict, repr=False)
     responses: Kept = field(default_factory=partial(Kept, RESPONSES), repr=False)
     _slopes: dict[bytes, dict[tuple[int, int], np.ndarray]] = field(default_factory=dict, repr=False)
-    arcs: tuple[tuple[float, float], ...] = ()
+    arcs: tuple[KnownArc, ...] = ()
     examples: Mapping[str, Examples] = field(default_factory=dict)
     # what belongs to the reference and takes seconds
     memory: Memory = field(default_factory=Memory, repr=False)
@@ -162,7 +163,10 @@ class StageModel:
 
     def _joined(self, joint: Joint) -> JointBasis:
         differs = joint.arc is not None
-        arcs = [replace(joint, arc=(0.0, w), ratio=q) for w, q in self.arcs] if differs else []
+        arcs = [
+            (m or self.reference, replace(joint, arc=(0.0, width), ratio=ratio))
+            for width, ratio, m in (self.arcs if differs else ())
+        ]
         return joint_basis(
             self.model.mesh,
             self._used(joint),
@@ -284,7 +288,7 @@ def with_snapshots(stage: StageModel, materials: Sequence[Materials]) -> StageMo
 def with_reference(
     stage: StageModel,
     materials: Materials,
-    arcs: tuple[tuple[float, float], ...] = (),
+    arcs: tuple[KnownArc, ...] = (),
     examples: Mapping[str, Examples] | None = None,
 ) -> StageModel:
     """The stage at another reference, its mesh factors kept."""
