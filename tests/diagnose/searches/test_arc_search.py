@@ -56,6 +56,7 @@ class Search:
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.followed: dict[float, list[np.ndarray]] = {}  # by the width of the valleys
         self.known: list[Sequence[np.ndarray]] = []  # by bases that were made in turn
+        self.quick: list[bool] = []  # and whether mesh factors stayed what they were
         monkeypatch.setattr(module, "replace", lambda h, **changes: h.within(changes))
         monkeypatch.setattr(module, "in_few_vectors", lambda *_: Hypothesis("few"))
         monkeypatch.setattr(module, "by_degrees", self.by_degrees)
@@ -67,10 +68,12 @@ class Search:
         monkeypatch.setattr(module, "in_few_vectors_near", self.near)
         monkeypatch.setattr(valleys_of, "refit_objective", self.objective)
 
-    def knowing(self, hypothesis: Hypothesis, z: np.ndarray, *, elsewhere: Any, **told: Any) -> Hypothesis:
-        # mesh factors are those of the start, which the bases know too
-        assert z[0] == 0.4 and told == {"quick": True, "around": ITSELF}
-        self.known.append(elsewhere)
+    def knowing(
+        self, hypothesis: Hypothesis, z: np.ndarray, *, elsewhere: Any, around: Any, quick: bool = False
+    ) -> Hypothesis:
+        assert around == ITSELF
+        self.known.append([z, *elsewhere])
+        self.quick.append(quick)
         return hypothesis
 
     @staticmethod
@@ -127,8 +130,10 @@ def test_the_best_winding_and_arc_of_all_that_are_tried_is_found(search: Search)
     assert counts == [most + again, again, 2 * again]
     # first windings and arcs that lie far apart, then what these led to
     first, *rest = search.known
-    assert len(first) == ANYWHERE.known and [len(known) for known in rest] == list(ANYWHERE.again)
+    assert len(first) == 1 + ANYWHERE.known and [len(known) for known in rest] == list(ANYWHERE.again)
     assert np.ptp(np.array(first)[:, PLACES], axis=0).min() > 1.5  # of prior standard deviations
+    # a start has mesh factors of its own; then they are those of what leads
+    assert search.quick == [True, False, False]
     assert {z.tobytes() for z in rest[0]} <= {z.tobytes() for z in search.followed[NARROWING[0]][:most]}
 
 
@@ -209,4 +214,4 @@ def test_where_no_winding_can_be_followed_nothing_is_found(monkeypatch: pytest.M
 
 def test_an_arc_that_explains_no_more_than_is_explained_without_gets_no_bases(search: Search) -> None:
     assert best_arc(start(), WINDING, -FAR_BEHIND, ANYWHERE) is None
-    assert [len(known) for known in search.known] == [ANYWHERE.known]
+    assert len(search.known) == 1

@@ -60,7 +60,6 @@ class Search:
         monkeypatch.setattr(typical, "in_its_own_model", self.usual)
         # the base with what leads' constants, and an arc's start in another model
         monkeypatch.setattr(module, "replace", lambda of, **new: of.__class__(**{**vars(of), **new}))
-        monkeypatch.setattr(module, "evaluated", lambda h, z: SimpleNamespace(hypothesis=h, z=z))
         monkeypatch.setattr(module, "in_its_own_model", self.model)
         monkeypatch.setattr(starts_module, "scan_starts", lambda *_: [np.zeros(4)])
         monkeypatch.setattr(starts_module, "start_of", self.start)

@@ -1,11 +1,10 @@
 """Arcs of lost contact, sought beside windings all over the prior, or like one that is known.
 
 A contact that is lost over a wide arc lets much of the winding go, and few frequencies tell how stiff the rest is:
-there are many valleys nearly as deep. In bases that know such arcs beside windings all over the prior (`known`), and in
-the few vectors that matter there, thousands of windings and arcs are tried where frequencies alone count, and the best
-of them followed as far as valleys are wider than what the bases miss. Then bases are made that know these, and what
-they lead to is followed and compared there, in one model: in bases that know only one of them, many right windings are
-led astray.
+there are many valleys nearly as deep. In bases that know such arcs beside windings all over the prior, and in the few
+vectors that matter there, thousands of windings and arcs are tried where frequencies alone count, and the best of them
+followed as far as valleys are wider than what the bases miss. Then bases are made that know these, and what they lead
+to is followed and compared there, in one model: in bases that know only one of them, right windings are led astray.
 """
 
 from __future__ import annotations
@@ -114,29 +113,32 @@ def best_arc(
     reach : where it is sought.
     draw : of the points that are tried: another one may lead to a valley that the first one missed.
     """
-    known = _points(start, winding, reach, reach.known, KNOWN)
-    samples = _points(start, winding, reach, reach.samples, 2 * draw + 1)
-    few = in_few_vectors(_knowing(start, known), samples, reach.vectors)
+    found = [r for r in _wide_optima(start, winding, reach, draw) if r.objective < worth + FAR_BEHIND]
+    places = varied(start.hypothesis, winding)
+    for count in reach.again if found else ():
+        best, *others = known = [r.z for r in found[:count]]
+        # mesh factors of a typical winding lead some of the right ones to a fifth of their shear
+        own = in_its_own_model(start.hypothesis, best, around=ITSELF, elsewhere=others)
+        few = in_few_vectors(own, around(own, known, places), reach.vectors)
+        found = _optima(partial(_followed, few), known, few) or found
+    return found[0].z if found else None
+
+
+def _wide_optima(start: Start, winding: Sequence[int], reach: Reach, draw: int) -> list[Refit]:
+    """Of all that is tried in one model, the best first."""
+    hypothesis, known = start.hypothesis, _points(start, winding, reach, reach.known, KNOWN)
+    if known:
+        hypothesis = in_its_own_model(hypothesis, start.z, quick=True, around=ITSELF, elsewhere=known)
+    few = in_few_vectors(
+        hypothesis, _points(start, winding, reach, reach.samples, 2 * draw + 1), reach.vectors
+    )
     rough = replace(few, discrepancy=reach.discrepancy, trained=False)
     nearest = nearest_first(rough, _points(start, winding, reach, reach.trials, 2 * draw))
     most, *fewer = reach.followed
     found = _optima(partial(in_valleys, few, discrepancy=NARROWING[0]), apart(nearest, most), few)
     for follow, count in zip((_narrower, _turned), fewer, strict=False):
         found = _optima(follow, found[:count], few)
-    found = [r for r in found if r.objective < worth + FAR_BEHIND]
-    places = varied(start.hypothesis, winding)
-    for count in reach.again if found else ():
-        known = [r.z for r in found[:count]]
-        few = in_few_vectors(_knowing(start, known), around(start.hypothesis, known, places), reach.vectors)
-        found = _optima(partial(_followed, few), known, few) or found
-    return found[0].z if found else None
-
-
-def _knowing(start: Start, points: Sequence[np.ndarray]) -> Hypothesis:
-    """In bases that know some windings and arcs as the mesh has them."""
-    if not points:
-        return start.hypothesis
-    return in_its_own_model(start.hypothesis, start.z, quick=True, around=ITSELF, elsewhere=points)
+    return found
 
 
 def _followed(few: Hypothesis, z: np.ndarray) -> Refit | None:

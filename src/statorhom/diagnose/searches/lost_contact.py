@@ -26,7 +26,7 @@ from statorhom.diagnose.fits.explanations import (
     refitted,
 )
 from statorhom.diagnose.fits.hypothesis import Hypothesis
-from statorhom.diagnose.fits.refit import Refit, evaluated
+from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.searches.arc_search import (
     ANYWHERE,
     NEARBY,
@@ -146,17 +146,16 @@ def _beside_that_of(leader: Refit, base: Refit, candidate: Candidate) -> Refit |
 def _sought(start: Start, worth: float, reach: Reach, draw: int = 0) -> Refit | None:
     """The best optimum of an arc within reach, in a model of its own."""
     winding = new_constants(start.hypothesis.study.constants, start.hypothesis.candidates[-1].stage)
-    z = best_arc(start, winding, worth, reach, draw)
     try:
-        there = None if z is None else evaluated(start.hypothesis, z)
+        z = best_arc(start, winding, worth, reach, draw)
     except (StatorhomError, KeyError):
         return None
-    return None if there is None else _in_own_models(there, varied(there.hypothesis, winding))
+    return None if z is None else _in_own_models(start.hypothesis, varied(start.hypothesis, winding), z)
 
 
-def _in_own_models(found: Refit, places: Sequence[int]) -> Refit | None:
+def _in_own_models(hypothesis: Hypothesis, places: Sequence[int], z: np.ndarray) -> Refit | None:
     """Refitted in a model of its own, and in further ones while that explains more and much is left to explain."""
-    best = _followed(in_its_own_model(found.hypothesis, found.z), places, found.z)
+    best = _followed(in_its_own_model(hypothesis, z), places, z)
     for _ in range(ROUNDS - 1):
         if best is None or explained(best, {}).adequacy > ADEQUATE:
             break
