@@ -138,13 +138,6 @@ def test_the_best_winding_and_arc_of_all_that_are_tried_is_found(search: Search)
 
 
 @pytest.mark.usefixtures("search")
-def test_another_draw_tries_other_points() -> None:
-    first, second = (best_arc(start(), WINDING, 100.0, ANYWHERE, draw) for draw in (0, 1))
-    assert first is not None and second is not None
-    assert not np.array_equal(first, second)
-
-
-@pytest.mark.usefixtures("search")
 def test_points_lie_all_over_windings_and_arcs() -> None:
     points = module._points(start(), WINDING, ANYWHERE, ANYWHERE.trials, 0)
     for name, (low, high) in {"arc_deg": ANYWHERE.widths_deg, "contact_ratio": ANYWHERE.ratios}.items():

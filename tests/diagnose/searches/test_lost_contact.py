@@ -39,7 +39,6 @@ class Search:
         self.begins: list[np.ndarray] = []  # of the typical winding's models
         self.begun: list[tuple[np.ndarray, Sequence[int]]] = []
         self.objectives = list(objectives)
-        self.draws: list[int] = []
         self.lost: list[str] = []  # tests of which what leads lacks a line
         self.fled = False  # whether the winding of what leads has
         items = tuple(SimpleNamespace(name=n, log=not n.endswith("nu_p"), fixed=False) for n in NAMES)
@@ -52,7 +51,6 @@ class Search:
         self.base: Any = SimpleNamespace(
             hypothesis=hypothesis, z=np.array([0.4, -2.0, -2.5, 0.7]), log_evidence=-200.0
         )
-        monkeypatch.setattr(module, "DRAWS", 1)
         monkeypatch.setattr(module, "nothing", lambda _: self.explanation(-200.0))
         monkeypatch.setattr(module, "explained", self.explained)
         monkeypatch.setattr(typical, "blank", lambda h, _: h)
@@ -119,11 +117,8 @@ class Search:
         assert list(places) == [1, 2, 3, 4, 5]
         return z
 
-    def search(
-        self, start: Start, winding: Sequence[int], worth: float, reach: Reach, draw: int
-    ) -> np.ndarray:
+    def search(self, start: Start, winding: Sequence[int], worth: float, reach: Reach) -> np.ndarray:
         self.worth, self.reach = worth, reach
-        self.draws.append(draw)
         self.begun.append((start.z, winding))
         return FOUND
 
@@ -155,22 +150,6 @@ def test_models_of_its_own_are_made(
     assert found.refit.objective == best
     assert len(search.objectives) == left
     assert len(objectives) <= ROUNDS
-
-
-@pytest.mark.parametrize(
-    ("objectives", "draws", "best"),
-    [((20.0,), [0], 20.0), ((90.0, 95.0, 25.0), [0, 1], 25.0), ((60.0, 65.0, 90.0, 95.0), [0, 1], 60.0)],
-    ids=["the first explains", "the second does", "neither does"],
-)
-def test_another_draw_is_tried_where_the_first_one_leads_to_nothing_that_explains(
-    monkeypatch: pytest.MonkeyPatch, objectives: Sequence[float], draws: list[int], best: float
-) -> None:
-    search = Search(monkeypatch, objectives)
-    monkeypatch.setattr(module, "DRAWS", 2)
-    (found,) = with_lost_contact(search.base, [], [ARCS], {})
-    assert found.refit.objective == best
-    assert search.draws == draws and not search.objectives
-    assert len(search.begins) == 1  # one model of the typical winding
 
 
 def test_nothing_is_sought_where_something_explains_the_misfit(monkeypatch: pytest.MonkeyPatch) -> None:

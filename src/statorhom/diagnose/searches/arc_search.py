@@ -28,7 +28,7 @@ from statorhom.diagnose.searches.sharper import ITSELF, in_its_own_model
 
 WIDTH, RATIO, ANGLE = "arc_deg", "contact_ratio", "angle_rad"
 PLACES = 24  # angles where a narrow valley begins
-KNOWN = 7  # seed of what bases know, which is none of a draw
+TRIALS, SAMPLES, KNOWN = 0, 1, 7  # seeds: of what is tried, of what spans few vectors, and of what bases know
 
 _T = TypeVar("_T")
 
@@ -100,9 +100,7 @@ NEARBY = Reach(
 )
 
 
-def best_arc(
-    start: Start, winding: Sequence[int], worth: float, reach: Reach, draw: int = 0
-) -> np.ndarray | None:
+def best_arc(start: Start, winding: Sequence[int], worth: float, reach: Reach) -> np.ndarray | None:
     """Coordinates of the best arc; None where no winding will do.
 
     Parameters
@@ -111,9 +109,8 @@ def best_arc(
     winding : places of the constants that are sought with it.
     worth : objective that is reached without; few vectors may miss the arc's by some.
     reach : where it is sought.
-    draw : of the points that are tried: another one may lead to a valley that the first one missed.
     """
-    found = [r for r in _wide_optima(start, winding, reach, draw) if r.objective < worth + FAR_BEHIND]
+    found = [r for r in _wide_optima(start, winding, reach) if r.objective < worth + FAR_BEHIND]
     places = varied(start.hypothesis, winding)
     for count in reach.again if found else ():
         best, *others = known = [r.z for r in found[:count]]
@@ -124,16 +121,14 @@ def best_arc(
     return found[0].z if found else None
 
 
-def _wide_optima(start: Start, winding: Sequence[int], reach: Reach, draw: int) -> list[Refit]:
+def _wide_optima(start: Start, winding: Sequence[int], reach: Reach) -> list[Refit]:
     """Of all that is tried in one model, the best first."""
     hypothesis, known = start.hypothesis, _points(start, winding, reach, reach.known, KNOWN)
     if known:
         hypothesis = in_its_own_model(hypothesis, start.z, quick=True, around=ITSELF, elsewhere=known)
-    few = in_few_vectors(
-        hypothesis, _points(start, winding, reach, reach.samples, 2 * draw + 1), reach.vectors
-    )
+    few = in_few_vectors(hypothesis, _points(start, winding, reach, reach.samples, SAMPLES), reach.vectors)
     rough = replace(few, discrepancy=reach.discrepancy, trained=False)
-    nearest = nearest_first(rough, _points(start, winding, reach, reach.trials, 2 * draw))
+    nearest = nearest_first(rough, _points(start, winding, reach, reach.trials, TRIALS))
     most, *fewer = reach.followed
     found = _optima(partial(in_valleys, few, discrepancy=NARROWING[0]), apart(nearest, most), few)
     for follow, count in zip((_narrower, _turned), fewer, strict=False):

@@ -46,7 +46,6 @@ from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
 
 ROUNDS = 3  # models of its own for the best one
-DRAWS = 1  # of windings and arcs all over the prior, while they lead to nothing that explains
 NARROW = 0.6, 1.6  # times the width of an arc's first start, that the bases know where narrow arcs are sought
 
 
@@ -121,15 +120,7 @@ def _beside_any(base: Refit, candidate: Candidate, worth: float) -> Refit | None
     worth : objective that is reached without an arc, its doubt included.
     """
     typical = with_typical_materials(base, candidate.stage)
-    if typical is None:
-        return None
-    start, found = first_start(typical, candidate), []
-    for draw in range(DRAWS):
-        own = _sought(start, worth, ANYWHERE, draw)
-        found += [own] if own is not None else []
-        if own is not None and explained(own, {}).adequacy > ADEQUATE:
-            break
-    return min(found, key=lambda r: r.objective, default=None)
+    return None if typical is None else _sought(first_start(typical, candidate), worth, ANYWHERE)
 
 
 def _beside_that_of(leader: Refit, base: Refit, candidate: Candidate) -> Refit | None:
@@ -143,11 +134,11 @@ def _beside_that_of(leader: Refit, base: Refit, candidate: Candidate) -> Refit |
     return _sought(replace(start, hypothesis=own), leader.objective, NEARBY)
 
 
-def _sought(start: Start, worth: float, reach: Reach, draw: int = 0) -> Refit | None:
+def _sought(start: Start, worth: float, reach: Reach) -> Refit | None:
     """The best optimum of an arc within reach, in a model of its own."""
     winding = new_constants(start.hypothesis.study.constants, start.hypothesis.candidates[-1].stage)
     try:
-        z = best_arc(start, winding, worth, reach, draw)
+        z = best_arc(start, winding, worth, reach)
     except (StatorhomError, KeyError):
         return None
     return None if z is None else _in_own_models(start.hypothesis, varied(start.hypothesis, winding), z)
