@@ -179,7 +179,7 @@ def _vectors(
     problems: dict[int, RingProblem], number: int, samples: Sequence[Sample], top: float, most: int
 ) -> np.ndarray:
     """(Σk, v) directions in which most of the samples' energy lies, of unit energy in their mean."""
-    found, energy = [], []
+    found, energy = [], np.zeros(())
     for sample in samples:
         family = sample.weakened.families[number]
         shapes = block_diag(*[family.even.vectors[n] for n in problems]) @ family.coordinates
@@ -187,8 +187,8 @@ def _vectors(
         rigid = np.where(family.values <= RIGID * top, top, 0.0)
         found.append(shapes / np.sqrt(np.maximum(family.values, 0.0) + rigid))
         pairs = [p.matrices(sample.materials) for p in problems.values()]
-        energy.append(block_diag(*[K + top * M for K, M in pairs]))
-    root = np.linalg.cholesky(np.mean(energy, axis=0))
+        energy = energy + block_diag(*[K + top * M for K, M in pairs]) / len(samples)
+    root = np.linalg.cholesky(energy)
     left, sizes, _ = np.linalg.svd(root.T @ np.hstack(found), full_matrices=False)
     count = min(most, int(np.count_nonzero(sizes > LEAST * sizes[0])))
     return np.asarray(solve_triangular(root.T, left[:, :count]))

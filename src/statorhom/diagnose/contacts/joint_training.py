@@ -14,7 +14,7 @@ import scipy.sparse as sp
 
 from statorhom.diagnose.bases.ring_basis import RingBasis, affine_terms, grown, mark_of
 from statorhom.diagnose.contacts.joint_fields import unsolved, with_local_fields
-from statorhom.diagnose.contacts.joint_solution import PARTS, Arcs
+from statorhom.diagnose.contacts.joint_solution import PARTS, Arcs, Parts
 from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.model.affine import Materials
 from statorhom.model.broken.pieces import Pieces
@@ -53,15 +53,19 @@ def with_arcs(
     known = {p.space.kind: p for p in ring.problems}
     profile, terms = radial_profile(ring.model.mesh), affine_terms(ring.model)
     begun = with_local_fields(ring, trainings[0][0], sp.csr_array(unit[0] + unit[1]))
-    solvers = [
-        (Arcs(begun, pieces, unit, materials, joints[0]), joints)
-        for materials, joints in _by_materials(trainings)
-    ]
-    # this process takes the first ones, whose factors weigh all others' parts
-    solved = side_by_side(lambda own: own[0].parts(own[1]), solvers, here=(0,))
+    (materials, joints), *others = _by_materials(trainings)
+    first = Arcs(begun, pieces, unit, materials, joints[0])
+
+    def parts_of(training: tuple[Materials, list[Joint]]) -> Parts:
+        # factors take gigabytes: those of one winding are gone before the next one's are made
+        own = first if training[1] is joints else replace(first, materials=training[0])
+        return own.parts(training[1])
+
+    # this process takes the first ones, whose energy weighs all others' parts
+    solved = side_by_side(parts_of, [(materials, joints), *others], here=(0,))
     most = max(PARTS, EACH * len(trainings))
     problems = []
-    for own, *parts in zip(solvers[0][0].problems, *solved, strict=True):
+    for own, *parts in zip(first.problems, *solved, strict=True):
         old = known.get(own.space.kind, unsolved(own.space))
         more = own.joined(old.basis, np.hstack(parts), most)[:, old.basis.shape[1] :]
         problems.append(grown(old, more, terms, profile))
