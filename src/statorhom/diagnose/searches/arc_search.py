@@ -110,15 +110,22 @@ def best_arc(start: Start, winding: Sequence[int], worth: float, reach: Reach) -
     worth : objective that is reached without; few vectors may miss the arc's by some.
     reach : where it is sought.
     """
-    found = [r for r in _wide_optima(start, winding, reach) if r.objective < worth + FAR_BEHIND]
-    places = varied(start.hypothesis, winding)
-    for count in reach.again if found else ():
-        best, *others = known = [r.z for r in found[:count]]
-        # mesh factors of a typical winding lead some of the right ones to a fifth of their shear
-        own = in_its_own_model(start.hypothesis, best, around=ITSELF, elsewhere=others)
-        few = in_few_vectors(own, around(own, known, places), reach.vectors)
-        found = _optima(partial(_followed, few), known, few) or found
-    return found[0].z if found else None
+    # of what is found points alone are kept: each one's bases take gigabytes
+    points = [r.z for r in _wide_optima(start, winding, reach) if r.objective < worth + FAR_BEHIND]
+    for count in reach.again if points else ():
+        points = _followed_again(start, winding, points[:count], reach.vectors)
+    return points[0] if points else None
+
+
+def _followed_again(
+    start: Start, winding: Sequence[int], points: Sequence[np.ndarray], vectors: int
+) -> list[np.ndarray]:
+    """What some points, the best first, lead to in bases that know them all; the best first."""
+    best, *others = points
+    # mesh factors of a typical winding lead some of the right ones to a fifth of their shear
+    own = in_its_own_model(start.hypothesis, best, around=ITSELF, elsewhere=others)
+    few = in_few_vectors(own, around(own, points, varied(own, winding)), vectors)
+    return [r.z for r in _optima(partial(_followed, few), points, few)] or list(points)
 
 
 def _wide_optima(start: Start, winding: Sequence[int], reach: Reach) -> list[Refit]:
