@@ -64,7 +64,7 @@ class Search:
         monkeypatch.setattr(module, "in_valleys", self.in_valleys)
         monkeypatch.setattr(module, "narrowed", self.narrowed)
         monkeypatch.setattr(module, "in_its_own_model", self.knowing)
-        monkeypatch.setattr(module, "around", lambda _, points, __: points)
+        monkeypatch.setattr(module, "with_neighbours", lambda _, points, __: points)
         monkeypatch.setattr(module, "in_few_vectors_near", self.near)
         monkeypatch.setattr(valleys_of, "refit_objective", self.objective)
 

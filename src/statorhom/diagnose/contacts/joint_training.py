@@ -57,7 +57,7 @@ def with_arcs(
     first = Arcs(begun, pieces, unit, materials, joints[0])
 
     def parts_of(training: tuple[Materials, list[Joint]]) -> Parts:
-        # factors take gigabytes: those of one winding are gone before the next one's are made
+        # factors are large: those of one winding are gone before those of the next are made
         own = first if training[1] is joints else replace(first, materials=training[0])
         return own.parts(training[1])
 

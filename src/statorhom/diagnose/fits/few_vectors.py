@@ -45,10 +45,12 @@ def in_few_vectors_near(hypothesis: Hypothesis, z: np.ndarray, places: Sequence[
     z : all coordinates.
     places : of those that will be moved: a winding's and an arc's.
     """
-    return in_few_vectors(hypothesis, around(hypothesis, [z], places), MORE)
+    return in_few_vectors(hypothesis, with_neighbours(hypothesis, [z], places), MORE)
 
 
-def around(hypothesis: Hypothesis, points: Sequence[np.ndarray], places: Sequence[int]) -> list[np.ndarray]:
+def with_neighbours(
+    hypothesis: Hypothesis, points: Sequence[np.ndarray], places: Sequence[int]
+) -> list[np.ndarray]:
     """Some points, and others around each of them.
 
     Parameters

@@ -18,7 +18,7 @@ import numpy as np
 from scipy.stats import qmc
 
 from statorhom.diagnose.fits.explanations import COARSE, NARROWING, by_degrees, in_valleys, narrowed, refitted
-from statorhom.diagnose.fits.few_vectors import around, in_few_vectors, in_few_vectors_near
+from statorhom.diagnose.fits.few_vectors import in_few_vectors, in_few_vectors_near, with_neighbours
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.fits.valleys import FAR_BEHIND, apart, different, nearest_first, over_the_prior
@@ -124,7 +124,7 @@ def _followed_again(
     best, *others = points
     # mesh factors of a typical winding lead some of the right ones to a fifth of their shear
     own = in_its_own_model(start.hypothesis, best, around=ITSELF, elsewhere=others)
-    few = in_few_vectors(own, around(own, points, varied(own, winding)), vectors)
+    few = in_few_vectors(own, with_neighbours(own, points, varied(own, winding)), vectors)
     return [r.z for r in _optima(partial(_followed, few), points, few)] or list(points)
 
 
