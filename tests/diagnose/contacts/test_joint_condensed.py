@@ -38,7 +38,7 @@ def whole() -> JointBasis:
 @pytest.fixture(scope="module")
 def few(whole: JointBasis) -> JointBasis:
     corners = [(f, d, q) for f in (0.5, 1.0, 2.0) for d in (80.0, 110.0, 140.0) for q in (1e-3, 1e-2)]
-    return whole.condensed([(wound(f), arc(d, q)) for f, d, q in corners])
+    return whole.condensed([(wound(f), arc(d, q)) for f, d, q in corners], 80)
 
 
 def test_modes_between_the_samples_are_nearly_those_of_all_coordinates(

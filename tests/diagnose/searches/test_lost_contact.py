@@ -260,6 +260,8 @@ def test_windings_without_a_body_are_passed_over(monkeypatch: pytest.MonkeyPatch
         raise SolverError("no such body")
 
     search = Search(monkeypatch)
+    monkeypatch.setattr(module, "best_arc", impossible)
+    assert with_lost_contact(search.base, [], [ARCS], {}) == []
     monkeypatch.setattr(typical, "evaluated", impossible)
     assert with_lost_contact(search.base, [], [ARCS], {}) == []
     assert not search.begun

@@ -16,7 +16,7 @@ import numpy as np
 from statorhom.diagnose.bases.ring_basis import RingBasis, RingModes, mark_of, ring_basis
 from statorhom.diagnose.contacts.joint_arc import ArcGroup, JoinedMode, Weakened, arc_groups
 from statorhom.diagnose.contacts.joint_born import born_modes, surface
-from statorhom.diagnose.contacts.joint_condensed import MOST, CondensedGroup, Sample, condensed
+from statorhom.diagnose.contacts.joint_condensed import CondensedGroup, Sample, condensed
 from statorhom.diagnose.contacts.joint_fields import with_local_fields
 from statorhom.diagnose.contacts.joint_training import with_arcs
 from statorhom.diagnose.measured.feature import SINGLE
@@ -107,7 +107,7 @@ class JointBasis:
             return self.few[number].weakened(even, joint, materials)
         return self.groups[number].weakened(even, joint)
 
-    def condensed(self, samples: Sequence[tuple[Materials, Joint]], most: int = MOST) -> JointBasis:
+    def condensed(self, samples: Sequence[tuple[Materials, Joint]], most: int) -> JointBasis:
         """The same in the few vectors that the modes at some materials and arcs span; nearly right between them."""
         top = (2 * np.pi * self.ring.highest_hz) ** 2
         solved = side_by_side(self._weakened_groups, samples, self.ring.problems)

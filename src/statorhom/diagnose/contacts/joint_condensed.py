@@ -20,7 +20,6 @@ from statorhom.diagnose.contacts.joint_arc import ArcGroup, Family, Weakened, ar
 from statorhom.model.affine import Materials, hooke_coefficients
 from statorhom.physics.action import Joint
 
-MOST = 80  # vectors of one family
 LEAST = 1e-4  # of the largest direction, in energy's root: what is smaller is left out
 RIGID = 1e-4  # λ below which a body is rigid, over that of the band's end
 
@@ -155,7 +154,7 @@ class CondensedGroup:
 
 
 def condensed(
-    group: ArcGroup, problems: Sequence[RingProblem], samples: Sequence[Sample], top: float, most: int = MOST
+    group: ArcGroup, problems: Sequence[RingProblem], samples: Sequence[Sample], top: float, most: int
 ) -> CondensedGroup:
     """A group in the vectors that its modes at some materials and arcs span.
 

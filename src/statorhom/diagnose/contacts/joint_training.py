@@ -53,16 +53,16 @@ def with_arcs(
     known = {p.space.kind: p for p in ring.problems}
     profile, terms = radial_profile(ring.model.mesh), affine_terms(ring.model)
     begun = with_local_fields(ring, trainings[0][0], sp.csr_array(unit[0] + unit[1]))
-    (materials, joints), *others = _by_materials(trainings)
-    first = Arcs(begun, pieces, unit, materials, joints[0])
+    windings = _by_materials(trainings)
+    first = Arcs(begun, pieces, unit, windings[0][0], trainings[0][1])
 
-    def parts_of(training: tuple[Materials, list[Joint]]) -> Parts:
+    def parts_of(number: int) -> Parts:
         # factors are large: those of one winding are gone before those of the next are made
-        own = first if training[1] is joints else replace(first, materials=training[0])
-        return own.parts(training[1])
+        materials, joints = windings[number]
+        return (replace(first, materials=materials) if number else first).parts(joints)
 
     # this process takes the first ones, whose energy weighs all others' parts
-    solved = side_by_side(parts_of, [(materials, joints), *others], here=(0,))
+    solved = side_by_side(parts_of, range(len(windings)), here=(0,))
     most = max(PARTS, EACH * len(trainings))
     problems = []
     for own, *parts in zip(first.problems, *solved, strict=True):

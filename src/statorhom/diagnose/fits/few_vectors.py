@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 from scipy.stats import qmc
 
-from statorhom.diagnose.contacts.joint_condensed import MOST
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.stages.stage_model import StageModel
 from statorhom.errors import StatorhomError
@@ -20,7 +19,7 @@ SEED = 0
 MORE = 160  # vectors of one family that are enough there for a ten-thousandth of a frequency
 
 
-def in_few_vectors(hypothesis: Hypothesis, points: Sequence[np.ndarray], most: int = MOST) -> Hypothesis:
+def in_few_vectors(hypothesis: Hypothesis, points: Sequence[np.ndarray], most: int) -> Hypothesis:
     """The same, good enough to tell windings apart; to be paired anew.
 
     Parameters

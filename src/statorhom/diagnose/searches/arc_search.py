@@ -146,7 +146,7 @@ def _wide_optima(start: Start, winding: Sequence[int], reach: Reach) -> list[Ref
 def _followed(few: Hypothesis, z: np.ndarray) -> Refit | None:
     """The optimum next to a point in bases that know it: as valleys narrow, its arc turned to its best place."""
     wide = in_valleys(few, z, NARROWING[0])
-    return None if wide is None else _turned(_narrower(wide) or wide)
+    return None if wide is None else _turned(_narrower(wide))
 
 
 def _points(start: Start, winding: Sequence[int], reach: Reach, count: int, seed: int) -> list[np.ndarray]:
@@ -180,7 +180,7 @@ def _different(found: Sequence[Refit]) -> list[Refit]:
     return different(found, lambda r: np.delete(r.z, _place(r.hypothesis, ANGLE)))
 
 
-def _narrower(found: Refit) -> Refit | None:
+def _narrower(found: Refit) -> Refit:
     """The optimum next to one in wider valleys: in these most that will not do in the narrowest ones stay behind."""
     return narrowed(found, NARROWING[1:])
 

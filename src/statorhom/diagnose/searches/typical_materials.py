@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from statorhom.diagnose.fits.explanations import blank
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit, evaluated
@@ -12,14 +10,13 @@ from statorhom.diagnose.stages.constants import new_constants
 from statorhom.errors import StatorhomError
 
 
-def with_typical_materials(base: Refit[Hypothesis], stage: str, **model: Any) -> Refit[Hypothesis] | None:
+def with_typical_materials(base: Refit[Hypothesis], stage: str) -> Refit[Hypothesis] | None:
     """In the model of the prior's median of a step; None where no stator has it, or the step nothing of its own.
 
     Parameters
     ----------
     base : the declared model.
     stage : the step.
-    model : as for `statorhom.diagnose.searches.sharper.in_its_own_model`.
     """
     hypothesis, z = base.hypothesis, base.z.copy()
     places = new_constants(hypothesis.study.constants, stage)
@@ -27,6 +24,6 @@ def with_typical_materials(base: Refit[Hypothesis], stage: str, **model: Any) ->
         return None
     z[places] = 0.0
     try:
-        return evaluated(in_its_own_model(blank(hypothesis, hypothesis.candidates), z, **model), z)
+        return evaluated(in_its_own_model(blank(hypothesis, hypothesis.candidates), z), z)
     except (StatorhomError, KeyError):
         return None
