@@ -1,8 +1,8 @@
 """Contacts that are lost over an arc, in a few vectors: what the modes of some windings and arcs have in common.
 
 An arc couples all harmonics, and together their bases have some hundred vectors, whose modes take a tenth of a second.
-Those of the band are nearly sums of some eighty, at any winding and any arc between those that were solved: enough to
-tell thousands of windings apart, not to say what is left to explain.
+Those of the band are nearly sums of some eighty beside windings that are alike, and of two hundred all over the prior:
+enough to tell thousands of windings apart, not to say what is left to explain.
 """
 
 from __future__ import annotations
