@@ -52,6 +52,7 @@ from statorhom.diagnose.report_rows import (
     frequency_errors,
 )
 from statorhom.diagnose.searches.approach import RING, Approach
+from statorhom.diagnose.searches.deeper import in_its_deepest_valley
 from statorhom.diagnose.searches.hidden_materials import beside_hidden_materials
 from statorhom.diagnose.searches.leading_effects import Leading, leading_effects
 from statorhom.diagnose.searches.second_effects import confirmed_pairs
@@ -143,6 +144,7 @@ def _find(
         if found and _is_open_to_pairs(leading):
             found, confirmed = _with_pairs(approach, leading, counts, settings.seed)
         found = without_gross_rows(leading.base.free, found, counts)
+        found = in_its_deepest_valley(found, settings.seed)
     progress(1)
     none = nothing(leading.base.refit)
     best = found[0] if found else none

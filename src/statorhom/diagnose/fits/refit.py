@@ -96,7 +96,7 @@ def _precision(information: FloatArray, weights: FloatArray) -> FloatArray:
 
 
 @dataclass(frozen=True, eq=False)
-class _Point:
+class Point:
     """What a refit makes as small as it can, at a point of a held pairing.
 
     Parameters
@@ -114,7 +114,7 @@ class _Point:
     doubt: float
 
     @classmethod
-    def of(cls, hypothesis: AnyHypothesis, z: FloatArray) -> _Point:
+    def of(cls, hypothesis: AnyHypothesis, z: FloatArray) -> Point:
         # a body's modes are predicted anew whenever its features are asked for
         features = hypothesis.features(z)
         residuals, charges = np.array([f.residual for f in features]), charges_of(features)
@@ -160,11 +160,11 @@ def evaluated(hypothesis: _H, z: FloatArray) -> Refit[_H]:
         If no body has these constants.
     """
     paired = hypothesis.paired(z)
-    here = _Point.of(paired, z)
+    here = Point.of(paired, z)
     return _refit_at(paired, here, jacobian(paired, z))
 
 
-def _refit_at(hypothesis: _H, here: _Point, J: FloatArray) -> Refit[_H]:
+def _refit_at(hypothesis: _H, here: Point, J: FloatArray) -> Refit[_H]:
     misfit = float(here.residuals @ here.residuals)
     return Refit(hypothesis, here.z, J, misfit, here.objective, here.doubt)
 
@@ -177,12 +177,12 @@ def refit_objective(hypothesis: AnyHypothesis, z: FloatArray) -> float:
     StatorhomError
         If no body has these constants.
     """
-    return _Point.of(hypothesis.paired(z), z).objective
+    return Point.of(hypothesis.paired(z), z).objective
 
 
 def _polished(hypothesis: _H, z: FloatArray, worth: float = np.inf) -> Refit[_H]:
     weights, (low, high) = hypothesis.prior_weights, hypothesis.limits()
-    here = _Point.of(hypothesis, np.clip(z, low, high))
+    here = Point.of(hypothesis, np.clip(z, low, high))
     damping, vain = 1e-3, 0
     J, C = jacobian(hypothesis, here.z), charge_slopes(hypothesis, here.z, here.charges)
     for _ in range(ITERATIONS):
@@ -199,7 +199,7 @@ def _polished(hypothesis: _H, z: FloatArray, worth: float = np.inf) -> Refit[_H]
             step = bounded_step(H + damping * np.diag(scale), gradient, low - here.z, high - here.z)
             step *= min(1.0, LARGEST_STEP / max(float(np.abs(step).max()), 1e-12))
             try:
-                trial = _Point.of(hypothesis, np.clip(here.z + step, low, high))
+                trial = Point.of(hypothesis, np.clip(here.z + step, low, high))
             except (StatorhomError, KeyError):
                 damping = max(10 * damping, 1e-2)
                 continue
