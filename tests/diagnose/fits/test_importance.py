@@ -10,7 +10,7 @@ import pytest
 from scipy.special import logsumexp
 from scipy.stats import multivariate_normal, norm
 
-from statorhom.diagnose.fits.importance import EFFECTIVE, Box, Draws, draws_of
+from statorhom.diagnose.fits.importance import ALL_OVER, EFFECTIVE, NEARBY, Box, Draws, draws_of
 
 WIDE_OPEN = np.full(2, 8.0)
 
@@ -73,3 +73,9 @@ def test_data_that_tell_nothing_leave_the_prior() -> None:
 def test_the_same_draws_give_the_same() -> None:
     found = [drawn(lambda p: -float(p @ p), box(), np.zeros(2), np.eye(2)) for _ in range(2)]
     np.testing.assert_array_equal(found[0].points, found[1].points)
+
+
+def test_where_nothing_is_possible_there_is_nowhere_to_draw() -> None:
+    found = drawn(lambda _: -np.inf, box(), np.zeros(2), np.eye(2))
+    assert found.are_impossible
+    assert len(found.points) == NEARBY + ALL_OVER

@@ -37,6 +37,7 @@ class TwoValleys:
     held: Any = None
     arc: Any = None
     changes: Any = "a lump"
+    whole: bool = True
     shared: tuple[object, ...] = ()
 
     @property
@@ -129,10 +130,11 @@ def test_rivals_stay_behind_as_they_are() -> None:
         explanation(TwoValleys(), (NOWHERE,)),
         explanation(TwoValleys(arc=1.0)),
         explanation(TwoValleys(changes=None)),
+        explanation(TwoValleys(whole=False)),
         explanation(TwoValleys(), (LUMP, OTHER)),
         replace(explanation(TwoValleys()), compared=explanation(TwoValleys()).refit),
     ],
-    ids=["explains all", "nowhere", "arc", "symmetric", "pair", "without a gross row"],
+    ids=["explains all", "nowhere", "arc", "symmetric", "a detail as usual", "pair", "without a gross row"],
 )
 def test_others_keep_what_they_have(untouched: Explanation) -> None:
     assert in_its_deepest_valley([untouched], seed=0) == [untouched]

@@ -108,6 +108,11 @@ class Draws:
     log_weights: FloatArray
 
     @property
+    def are_impossible(self) -> bool:
+        """Whether none of them is possible."""
+        return not bool(np.isfinite(self.log_weights).any())
+
+    @property
     def effective(self) -> float:
         """Number of draws of equal weight that would say as much."""
         weights = np.exp(self.log_weights - self.log_weights.max())
@@ -139,7 +144,7 @@ def draws_of(
     found = _weighed(proposals, prior, points, likelihoods)
     for i in range(ROUNDS):
         # two at least: the first one's kernels know of no more than chance drew
-        if i > 1 and found.effective >= EFFECTIVE:
+        if found.are_impossible or (i > 1 and found.effective >= EFFECTIVE):
             break
         proposals.append((MORE, _about(found, covariance)))
         new = proposals[-1][1].draws(MORE, rng)

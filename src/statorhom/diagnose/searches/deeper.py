@@ -45,11 +45,13 @@ def in_its_deepest_valley(found: Sequence[Explanation], seed: int) -> list[Expla
 
 
 def _is_sought(e: Explanation) -> bool:
-    """Whether it is one effect at a place that breaks the symmetry, and every row counts.
+    """Whether it is one effect at a place that breaks the symmetry, free in all its parameters, and every row counts.
 
     Arcs of lost contact are predicted in bases that know nearby ones alone.
     """
-    if len(e.candidates) != 1 or not e.candidates[0].located or e.compared is not None:
+    if len(e.candidates) != 1 or not e.candidates[0].located:
+        return False
+    if e.compared is not None or not e.refit.hypothesis.whole:
         return False
     action = e.refit.hypothesis.actions(e.refit.z)[0]
     return action.changes is not None and (action.joint is None or action.joint.arc is None)
