@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from small_stage import stage_of
@@ -77,3 +79,9 @@ def test_a_line_is_paired_by_either_count(label: int, partner: tuple[int, int, i
         (2, 2, 0): PredictedMode((2, 2, 0), far, float(np.log(10300.0)), 0j, 0.0),
     }
     assert sought(test, (line,), predicted).within(1.0) == (partner,)
+
+
+def test_a_band_without_modes_shows_none() -> None:
+    none = SimpleNamespace(participation=np.zeros((4, 0)))
+    columns = {(2, 0, 0): SimpleNamespace(numbers=[0, 1]), (2, 1, 0): SimpleNamespace(numbers=[2, 3])}
+    assert shown_nodes(none, columns, {}) == {}  # type: ignore[arg-type]

@@ -28,7 +28,9 @@ def shown_nodes(
     columns : places of the named modes among the broken ones' coordinates.
     named : the symmetric stator's modes.
     """
-    found = {}
+    found: dict[ModeKey, int] = {}
+    if modes.participation.shape[1] == 0:
+        return found  # none in the band
     for order in {key[0] for key in columns}:
         keys = [key for key in columns if key[0] == order]
         # mean square part of every named mode of the order in every broken one, (keys, modes)
