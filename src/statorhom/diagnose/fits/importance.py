@@ -153,9 +153,7 @@ def draws_of(
     return found
 
 
-def _within(
-    log_likelihood: Callable[[FloatArray], float], prior: Box, points: FloatArray
-) -> npt.NDArray[np.float64]:
+def _within(log_likelihood: Callable[[FloatArray], float], prior: Box, points: FloatArray) -> FloatArray:
     inside = np.isfinite(prior.log_density(points))
     return np.array([log_likelihood(p) if here else -np.inf for p, here in zip(points, inside, strict=True)])
 

@@ -17,6 +17,7 @@ from statorhom.diagnose.fits.explanations import Explanation, refitted
 from statorhom.diagnose.fits.importance import Box, draws_of
 from statorhom.diagnose.fits.profile import Profile
 from statorhom.diagnose.fits.refit import Refit
+from statorhom.diagnose.searches.refit_starts import MIDDLING, price_of
 
 DEEPER = 1.0  # of the objective, by which another valley is deeper
 ROUNDS = 3
@@ -41,7 +42,7 @@ def in_its_deepest_valley(found: Sequence[Explanation], seed: int) -> list[Expla
         best = deeper
     gained = best.log_evidence - lead.refit.log_evidence
     lead = replace(lead, refit=best, log_evidence=lead.log_evidence + gained)
-    return sorted((lead, *others), key=lambda e: -e.log_evidence)
+    return [lead, *others]
 
 
 def _is_sought(e: Explanation) -> bool:
@@ -53,8 +54,7 @@ def _is_sought(e: Explanation) -> bool:
         return False
     if e.compared is not None or not e.refit.hypothesis.whole:
         return False
-    action = e.refit.hypothesis.actions(e.refit.z)[0]
-    return action.changes is not None and (action.joint is None or action.joint.arc is None)
+    return price_of(e.refit.hypothesis.actions(e.refit.z)[0]) == MIDDLING
 
 
 def _deeper(profile: Profile, seed: int) -> Refit | None:
@@ -62,11 +62,9 @@ def _deeper(profile: Profile, seed: int) -> Refit | None:
     prior = Box(*profile.limits(), profile.is_normal)
     rng = np.random.default_rng(seed)
     drawn = draws_of(profile.log_likelihood, prior, profile.middle, profile.covariance, rng)
-    unusual = np.sum(drawn.points**2 * profile.is_normal, axis=1)
-    objectives = unusual - 2.0 * drawn.log_likelihoods
-    there, before = int(np.argmin(objectives)), profile.optimum.objective - DEEPER
-    best = profile.best(drawn.points[there]) if objectives[there] < before else None
-    if best is None:
+    there = int(np.argmax(drawn.log_likelihoods + prior.log_density(drawn.points)))
+    best, before = profile.best(drawn.points[there]), profile.optimum.objective - DEEPER
+    if best is None or best[1] >= before:
         return None
     again = refitted(replace(profile.optimum.hypothesis, held=None), best[0])
     if again is None or again.objective > before:

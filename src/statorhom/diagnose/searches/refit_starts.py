@@ -149,7 +149,11 @@ def price(trial: Trial) -> int:
     """What an evaluation costs: least where the symmetry is kept, most with a contact that is lost over an arc."""
     _, (start, *_) = trial
     # what the candidate is added to costs the same with each of them
-    action = last_action(start)
+    return price_of(last_action(start))
+
+
+def price_of(action: Action) -> int:
+    """The same with what one candidate does."""
     if action.joint is not None and action.joint.arc is not None:
         return DEAR
     return CHEAP if action.changes is None else MIDDLING
