@@ -5,23 +5,42 @@ from hypothesis import strategies as st
 
 from statorhom.modes.gap_clusters import angle_clusters, gap_clusters
 
+RESOLUTION = 5e-3
+
+
+def scattered(planes, points, scatter, seed):
+    """Planes one apart, their points off by up to ± the scatter: values and the planes they belong to."""
+    rng = np.random.default_rng(seed)
+    truth = rng.permutation(np.repeat(np.arange(planes), points))
+    return truth + scatter * rng.uniform(-1, 1, truth.size), truth
+
 
 @settings(deadline=None)
 @given(
     st.integers(2, 8),
     st.integers(2, 30),
     st.floats(1e-3, 1e3),
-    st.floats(0.0, 0.08),
+    st.floats(0.0, 0.034),
     st.integers(0, 2**32 - 1),
 )
 def test_scattered_planes_are_found_whatever_the_size(planes, points, size, scatter, seed):
-    # scatter up to ± 8 % of the spacing, over a range of six decades of sizes
-    rng = np.random.default_rng(seed)
-    truth = rng.permutation(np.repeat(np.arange(planes), points))
-    values = size * (truth + scatter * rng.uniform(-1, 1, truth.size))
-    numbers = gap_clusters(values, 5e-3 * size * (planes - 1))
-    if scatter < 0.05 or points >= 10:  # few widely scattered points may be anything
-        np.testing.assert_array_equal(numbers, truth)
+    # up to ± 3.4 % of the spacing a gap within a plane (0.068) is nearer to the resolution (0.005) than to
+    # that between planes (0.932), as ratios, however few the points are
+    values, truth = scattered(planes, points, scatter, seed)
+    numbers = gap_clusters(size * values, RESOLUTION * size * (planes - 1))
+    np.testing.assert_array_equal(numbers, truth)
+
+
+def test_two_planes_of_two_points_at_the_ends_of_their_scatter():
+    assert gap_clusters([-0.034, 0.034, 0.966, 1.034], RESOLUTION).tolist() == [0, 0, 1, 1]
+
+
+@pytest.mark.parametrize("planes", range(2, 9))
+@pytest.mark.parametrize("seed", range(5))
+def test_many_points_may_scatter_further(planes, seed):
+    # their gaps leave no jump below that to the spacing; few points scattered so far may be anything
+    values, truth = scattered(planes, 10, 0.08, seed)
+    np.testing.assert_array_equal(gap_clusters(values, RESOLUTION * (planes - 1)), truth)
 
 
 def test_a_plane_of_its_own_close_to_another_one_stays_apart():

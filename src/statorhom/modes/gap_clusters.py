@@ -16,7 +16,9 @@ def gap_clusters(values: npt.ArrayLike, resolution: float) -> IntArray:
     """Sort values into clusters: the gaps between them are either scatter or spacing.
 
     The sorted gaps jump where scatter ends and spacing begins. The largest jump (as a ratio) is taken, so
-    that no accuracy of marking or size of an object has to be known beforehand.
+    that no accuracy of marking or size of an object has to be known beforehand. Clusters come out as they were
+    meant where the least gap between them exceeds the widest within by more than that exceeds the resolution;
+    many points leave no jump among their gaps and may scatter further.
 
     Parameters
     ----------
