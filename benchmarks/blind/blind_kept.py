@@ -48,8 +48,10 @@ def _row(line: dict[Any, Any]) -> dict[str, Any]:
     if row["verdict"] == "failed":
         return row
     # an empty cell is what was not named
-    words = {k: row.get(k, "") for k in ("named", "best", "effect")}
+    words = {k: row.get(k, "") for k in ("named", "best", "effect", "part")}
     answers = {method: known.get(method, "") for method in METHODS}
+    # answers of before there were parts tell a class by a name alone
+    row.setdefault("class_named", row["class_right"])
     return row | words | {"answers": answers, "held_out": ratios}
 
 

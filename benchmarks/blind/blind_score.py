@@ -12,26 +12,8 @@ from blind_cases import BlindCase
 from blind_work import Work
 from scipy.stats import beta, binom
 
-# effects that lie in one part of the machine or of the measurement chain
-CLASSES: Mapping[str, str] = {
-    "attached_mass": "back of the core",
-    "local_stiffness": "back of the core",
-    "ovality": "back of the core",
-    "interlaminar_shear": "stack",
-    "stack_pressure_gradient": "stack",
-    "support_compliance": "support",
-    "suspension_stiffness": "support",
-    "end_winding_stiffness": "winding",
-    "interface_debond": "winding",
-    "loose_winding_mass": "winding",
-    "viscoelastic_winding": "winding",
-    "press_fit_contact": "frame",
-    "dry_friction": "contact",
-    "temperature_shift": "conditions",
-    "wrong_input": "files",
-    "mislabelled_mode": "files",
-    "sensor_mass": "sensors",
-}
+from statorhom.physics.library import library
+
 # the parameter that says how much, and whether its error is one of the logarithm of a ratio to 1
 MAGNITUDES: Mapping[str, str] = {
     "attached_mass": "mass_kg",
@@ -77,25 +59,31 @@ def scored(work: Work, case: BlindCase) -> dict[str, Any] | None:
     }
     if said is None:
         return row | {"verdict": "failed"}
-    row |= compared(truth, said)
     details = json.loads((work.run(case) / "diagnosis-details.json").read_text(encoding="utf-8"))
+    row |= compared(truth, said, details.get("part", ()))
     row["effect"] = "+".join(e["effect"] for e in truth["effects"])
     row["held_out"] = held_out_ratios(details, said)
     return row | {"answers": {"diagnose": row["named"], **simpler_answers(details)}}
 
 
-def compared(truth: Mapping[str, Any], said: Mapping[str, Any]) -> dict[str, Any]:
-    """The answer against the truth."""
+def compared(truth: Mapping[str, Any], said: Mapping[str, Any], part: Sequence[str] = ()) -> dict[str, Any]:
+    """The answer against the truth; `part` is what an ambiguous one is sure of (`Details.part`).
+
+    The class of an effect is the part of the machine or of the measurement that it concerns.
+    """
     true, named = truth["effects"], said["effects"] if said["verdict"] == "named" else []
     names = [e["effect"] for e in true]
     found = [e["effect"] for e in named]
     offered = found or [a["effect"] for a in said.get("alternatives", [])[:1]]
+    named_right = sorted(map(_part, found)) == sorted(map(_part, names))
     row: dict[str, Any] = {
         "verdict": said["verdict"],
         "named": "+".join(found),
         "best": "+".join(offered),
         "effect_right": sorted(found) == sorted(names),
-        "class_right": sorted(CLASSES.get(n, n) for n in found) == sorted(CLASSES.get(n, n) for n in names),
+        "class_named": named_right,
+        "class_right": named_right or (bool(part) and sorted(part) == sorted({_part(n) for n in names})),
+        "part": " and ".join(part),
         "verdict_right": said["verdict"] == truth["verdict"]
         and (not found or sorted(found) == sorted(names)),
     }
@@ -108,6 +96,12 @@ def compared(truth: Mapping[str, Any], said: Mapping[str, Any]) -> dict[str, Any
     if held_out is not None and held_out["before_rms_percent"]:
         row["held_out_ratio"] = held_out["after_rms_percent"] / held_out["before_rms_percent"]
     return row
+
+
+def _part(effect: str) -> str:
+    """What of the machine or of the measurement an effect concerns; one from outside is like no other."""
+    known = library().get(effect)
+    return effect if known is None or known.part is None else known.part
 
 
 def angle_error_deg(true: Mapping[str, Any], said: Mapping[str, Any]) -> float | None:
@@ -165,6 +159,7 @@ def proportions(rows: Sequence[Mapping[str, Any]]) -> dict[str, tuple[int, int]]
     return {
         "effect right, snr >= 4": _count(single, "effect_right"),
         "class right, snr >= 4": _count(single, "class_right"),
+        "class right by name, snr >= 4": _count(single, "class_named"),
         "right effect leads, snr >= 4, whatever the verdict": _leads_rightly(single),
         "doubles: both right": _count([r for r in rows if r["group"] == "double"], "effect_right"),
         "ambiguous: right verdict": _count([r for r in rows if r["group"] == "ambiguous"], "verdict_right"),

@@ -78,6 +78,15 @@ def test_the_right_class_alone_is_not_the_right_effect() -> None:
     assert "magnitude_error" not in row
 
 
+def test_an_ambiguous_answer_may_be_sure_of_the_class() -> None:
+    lump = {"verdict": "named", "effects": [LUMP]}
+    row = compared(lump, answer("ambiguous"), ["the back of the core"])
+    assert (row["effect_right"], row["class_named"], row["class_right"]) == (False, False, True)
+    assert not compared(lump, answer("ambiguous"), ["the winding"])["class_right"]
+    assert not compared(lump, answer("ambiguous"), ["the back of the core", "the winding"])["class_right"]
+    assert not compared(lump, answer("ambiguous"))["class_right"]
+
+
 def test_silence_is_right_where_nothing_is_missing() -> None:
     nothing = {"verdict": "none", "effects": []}
     assert compared(nothing, answer("none"))["verdict_right"]
@@ -106,9 +115,18 @@ def test_figures_count_what_they_say() -> None:
             "effect": "x",
             "effect_right": True,
             "class_right": True,
+            "class_named": True,
         },
         base | {"group": "single", "verdict": "failed", "fault": "no answer"},
-        base | {"group": "single", "verdict": "ambiguous", "best": "x", "effect": "x", "named": ""},
+        base
+        | {
+            "group": "single",
+            "verdict": "ambiguous",
+            "best": "x",
+            "effect": "x",
+            "named": "",
+            "class_right": True,
+        },
         base | {"group": "single", "verdict": "unknown", "best": "y", "effect": "x", "named": ""},
         base
         | {"group": "single", "verdict": "none", "snr": 1.0, "effect_right": False, "class_right": False},
@@ -117,6 +135,8 @@ def test_figures_count_what_they_say() -> None:
     ]
     figures = summary(rows)
     assert figures["effect right, snr >= 4"] == 0.25
+    assert figures["class right, snr >= 4"] == 0.5
+    assert figures["class right by name, snr >= 4"] == 0.25
     assert figures["right effect leads, snr >= 4, whatever the verdict"] == 0.5
     assert figures["named on nothing missing"] == 0.5
     assert np.isnan(figures["named outside the library"])

@@ -29,6 +29,24 @@ from statorhom.results.diagnosis import (
     Verdict,
 )
 
+STRIP = EffectResult(
+    effect="local_stiffness",
+    stage="stack",
+    region="lamination",
+    test=None,
+    location=Location(angle_deg=95.0, angle_sd_deg=3.0),
+    parameters={"stiffness_ratio": Estimated(value=0.7, ci90=(0.6, 0.8))},
+    probability=0.4,
+)
+OVAL = EffectResult(
+    effect="ovality",
+    stage="stack",
+    region="lamination",
+    test=None,
+    location=Location(angle_deg=40.0, angle_sd_deg=2.0),
+    parameters={"harmonic": 2.0, "relative_amplitude": Estimated(value=0.02, ci90=(0.015, 0.025))},
+    probability=0.4,
+)
 LUMP = EffectResult(
     effect="attached_mass",
     stage="stack",
@@ -180,6 +198,8 @@ def example_details(verdict: Verdict, stage: str = "stack", places: bool = True)
         )
         if verdict == "ambiguous"
         else (),
+        possible=((LUMP,), (STRIP, OVAL)) if verdict == "ambiguous" else (),
+        part=("the back of the core",) if verdict == "ambiguous" else (),
         refitted=(
             RefittedRow(
                 stage=stage,

@@ -92,6 +92,20 @@ def test_what_to_measure_next_and_what_passed() -> None:
     assert '<span class="warning">no</span>' in unknown and '<span class="good">yes</span>' in unknown
 
 
+def test_what_it_may_be_is_told_with_place_and_size() -> None:
+    said = words_of(page("ambiguous"))
+    assert "Whichever it is, it concerns the back of the core." in said
+    assert "not in the model. It would be in step stack, lamination; at 100° ± 3.3° around the axis" in said
+    assert (
+        "It would be in step stack, lamination; at 95° ± 4.9° around the axis; stiffness ratio 0.70" in said
+    )
+    assert "at 40° ± 3.3° around the axis; harmonic 2" in said
+    open_part = example_details("ambiguous").model_copy(update={"part": ()})
+    assert "Whichever it is" not in words_of(
+        render_html(diagnosis_document(example_diagnosis("ambiguous"), open_part))
+    )
+
+
 def test_every_rule_is_told_with_what_it_asked() -> None:
     said = words_of(page("named"))
     assert "Its trace in the data is no accident chance 1 in 4 000 below 1 in 100 yes" in said

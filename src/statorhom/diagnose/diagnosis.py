@@ -28,6 +28,7 @@ from statorhom.diagnose.evidence.held_out_lines import unseen_modes
 from statorhom.diagnose.evidence.held_out_name import held_out_names, renames_alone
 from statorhom.diagnose.evidence.passed_rules import rule_rows
 from statorhom.diagnose.evidence.resampling import stability
+from statorhom.diagnose.evidence.shared_part import shared_part
 from statorhom.diagnose.evidence.simpler import by_criterion, simpler_fits
 from statorhom.diagnose.fits.baseline import Baseline
 from statorhom.diagnose.fits.explanations import (
@@ -66,6 +67,7 @@ from statorhom.results.diagnosis import (
     Alternative,
     Details,
     Diagnosis,
+    EffectResult,
     FitErrors,
     HeldOutErrors,
     ScanRow,
@@ -80,7 +82,7 @@ ALTERNATIVES = 2  # that an ambiguous answer names at least
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """A verdict and what it rests on."""
+    """A verdict and what it rests on; `part` is what all explanations of an ambiguous one concern."""
 
     verdict: Verdict
     best: Explanation
@@ -88,6 +90,7 @@ class Found:
     scan: Scan
     evidence: Evidence
     base: Baseline
+    part: tuple[str, ...]
 
 
 def diagnose(
@@ -153,7 +156,9 @@ def _find(
         best = replace(approach.final(best), log_evidence=best.log_evidence, compared=best.compared)
     evidence = _evidence(leading, best, none, found, settings.seed)
     evidence = replace(evidence, confirmed=confirmed or not best.is_pair)
-    return Found(decide(evidence), best, tuple(found), leading.scan, evidence, leading.base)
+    verdict = decide(evidence)
+    part = shared_part(evidence, found, none, settings.seed) if verdict == "ambiguous" else ()
+    return Found(verdict, best, tuple(found), leading.scan, evidence, leading.base, part)
 
 
 def _with_pairs(
@@ -255,7 +260,7 @@ def _diagnosis(approach: Approach, files: StudyFiles, found: Found, choice: Choi
         verdict=found.verdict,
         effects=effect_results(best, chances.get(own, 0.0), approach.located) if named else (),
         alternatives=tuple(shown) if found.verdict != "none" else (),
-        mismatch=mismatch(base) if found.verdict != "none" else None,
+        mismatch=mismatch(base, found.part) if found.verdict != "none" else None,
         fit=FitErrors(
             before=frequency_errors(base, after),
             after=frequency_errors(after, base),
@@ -309,9 +314,20 @@ def _details(approach: Approach, files: StudyFiles, found: Found, choice: Choice
         second_confirmed=e.confirmed if best.is_pair else None,
         rules=rule_rows(e, pair=best.is_pair),
         options=choice.options,
+        possible=_possible(approach, found) if found.verdict == "ambiguous" else (),
+        part=found.part,
         **approach.pictures(files, found.base.refit, best, found.verdict == "named", found.verdict != "none"),
         summaries=summaries(tuple(dict.fromkeys(n for x in found.explanations for n in x.effects)), files),
     )
+
+
+def _possible(approach: Approach, found: Found) -> tuple[tuple[EffectResult, ...], ...]:
+    """Where and how large what is left of an ambiguous answer would be."""
+    chances = _probabilities(found)
+    rivals = others(found.best, found.explanations)
+    likely = [e for e in rivals if chances["+".join(e.effects)] >= LEAST_PROBABILITY]
+    left = (found.best, *(likely or rivals[: ALTERNATIVES - 1]))
+    return tuple(effect_results(e, chances["+".join(e.effects)], approach.located) for e in left)
 
 
 def _simpler(found: Found) -> SimplerRow:

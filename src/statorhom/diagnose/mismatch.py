@@ -15,8 +15,8 @@ TOGETHER = 1.2  # root mean square, in standard deviations: from which on modes 
 MOST_MODES = 8
 
 
-def mismatch(base: Refit) -> Mismatch | None:
-    """The test that the declared model meets worst, and its modes."""
+def mismatch(base: Refit, part: Sequence[str] = ()) -> Mismatch | None:
+    """The test that the declared model meets worst, and its modes; `part` is what any cause would concern."""
     features = [f for f in base.hypothesis.features(base.z) if f.test]
     tests = {t.name: s.name for s in base.hypothesis.study.stages for t in s.tests}
     if not features:
@@ -31,6 +31,7 @@ def mismatch(base: Refit) -> Mismatch | None:
     )
     modes = tuple(dict.fromkeys(f.mode for f in odd if f.mode is not None))[:MOST_MODES]
     said = _statement(worst, odd) or _weighed(base) or _unremarkable(worst, features)
+    said += f"; whatever is missing, it concerns {' and '.join(part)}" if part else ""
     return Mismatch(stage=tests[worst], test=worst, modes=modes, statement=said)
 
 

@@ -36,10 +36,13 @@ class Effect(ABC):
     Class attributes: `name` (formats.md), `summary` (one sentence for the report), `citation`, `confused_with`, and
     `note`, which says how magnitudes are modelled where that matters; `coupon_words` where plates, beams and wings
     ask for others, and `tube_words` where tubes do; `on_tubes` where a tube has it in all ways that a stator has;
-    `open_by_shape`, what the unknown shape of a local cause leaves open of its magnitude, relative.
+    `part`, what of the machine or of the measurement it concerns, which may be sure where the effect is not (an effect
+    without one is a part of its own); `open_by_shape`, what the unknown shape of a local cause leaves open of its
+    magnitude, relative.
     """
 
     name: ClassVar[str]
+    part: ClassVar[str | None] = None
     summary: ClassVar[str]
     citation: ClassVar[str]
     confused_with: ClassVar[tuple[Confusion, ...]] = ()

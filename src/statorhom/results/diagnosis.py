@@ -245,6 +245,8 @@ class SimplerRow(_Part):
 class Details(_Part):
     """The numbers behind a diagnosis; `second_confirmed` of two effects, None of others.
 
+    Of an ambiguous answer `possible` tells where and how large each explanation would be that is left (one list of
+    effects each), and `part` what of the machine or of the measurement all of them concern, where that is sure.
     `over_discrepancy` is None and `rules` empty in results of versions that did not write them.
     """
 
@@ -275,6 +277,8 @@ class Details(_Part):
     second_confirmed: bool | None = None
     rules: tuple[RuleRow, ...] = ()
     over_discrepancy: float | None = None
+    possible: tuple[tuple[EffectResult, ...], ...] = ()
+    part: tuple[str, ...] = ()
 
 
 def write_diagnosis(diagnosis: Diagnosis, details: Details, folder: Path) -> Path:

@@ -11,11 +11,11 @@ import pytest
 
 from statorhom.diagnose.fits import valleys as valleys_of
 from statorhom.diagnose.fits.explanations import NARROWING
+from statorhom.diagnose.fits.own_model import ITSELF
 from statorhom.diagnose.fits.valleys import FAR_BEHIND
 from statorhom.diagnose.searches import arc_search as module
 from statorhom.diagnose.searches.arc_search import ANYWHERE, NEARBY, best_arc
 from statorhom.diagnose.searches.refit_starts import Start
-from statorhom.diagnose.searches.sharper import ITSELF
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.effects.interface_debond import ARC, LOSS, RATIO
 from statorhom.physics.parameter import angle

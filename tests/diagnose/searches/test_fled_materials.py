@@ -39,10 +39,10 @@ class Fled:
         one = SimpleNamespace(test=self.test, kind=self.kind, residual=self.residual, doubt=self.doubt)
         return [one, one]
 
-    def found(self) -> bool:
+    def found(self, gross: int = 0) -> bool:
         hypothesis = SimpleNamespace(study=self.study, prior_weights=np.ones(3), features=self.features)
         of: Any = SimpleNamespace(hypothesis=hypothesis, z=np.array([9.0, *self.z]))
-        return typical_where_fled(of, self.stage, LEAST) is not None
+        return typical_where_fled(of, self.stage, LEAST, gross) is not None
 
 
 @pytest.fixture
@@ -70,6 +70,14 @@ def test_what_loses_more_than_typical_materials_have_to_gain_has_fled(
 ) -> None:
     vars(winding).update(told)
     assert winding.found()
+
+
+def test_a_gross_error_is_no_flight_and_two_are_one(winding: Fled) -> None:
+    winding.residual = 5.0
+    assert winding.found(gross=1)
+    assert not winding.found(gross=2)
+    winding.doubt = 3.0
+    assert winding.found(gross=2)
 
 
 def test_what_typical_materials_are_as_unsure_of_is_no_loss(winding: Fled) -> None:

@@ -65,7 +65,7 @@ class Search:
         # what few vectors lead to is refitted in all
         monkeypatch.setattr(module, "varied", lambda _, winding: [*winding, 4, 5])
         monkeypatch.setattr(module, "followed_near", self.near)
-        monkeypatch.setattr(module, "typical_where_fled", lambda _, stage, __: stage if self.fled else None)
+        monkeypatch.setattr(module, "typical_where_fled", lambda _, stage, *__: stage if self.fled else None)
         monkeypatch.setattr(module, "refitted", self.refit)
 
     @staticmethod

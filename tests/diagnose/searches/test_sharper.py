@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose.contacts.joint_training import KnownArc
+from statorhom.diagnose.fits import own_model
 from statorhom.diagnose.fits.explanations import Explanation
+from statorhom.diagnose.fits.own_model import AROUND, ITSELF, _arcs
 from statorhom.diagnose.searches import sharper as module
-from statorhom.diagnose.searches.sharper import AROUND, ITSELF, _arcs, at_its_own_materials, sharpened
+from statorhom.diagnose.searches.sharper import at_its_own_materials, sharpened
 from statorhom.errors import MaterialError, SolverError
 from statorhom.physics.action import Action, Joint
 
@@ -80,7 +82,9 @@ def test_other_coordinates_arcs_are_solved_with_the_materials_there() -> None:
 
     hypothesis: Any = SimpleNamespace(materials=materials, actions=lambda z: [joint(z[1], 1e-3)])
     stage: Any = None
-    found = module._arcs_elsewhere(hypothesis, stage, [np.array(z) for z in ((1, 0.5), (-1, 0.6), (2, 0.7))])
+    found = own_model._arcs_elsewhere(
+        hypothesis, stage, [np.array(z) for z in ((1, 0.5), (-1, 0.6), (2, 0.7))]
+    )
     assert list(found) == [KnownArc(0.5, 1e-3, "winding 1"), KnownArc(0.7, 1e-3, "winding 2")]  # type: ignore[arg-type]
 
 

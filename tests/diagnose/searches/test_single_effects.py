@@ -69,6 +69,7 @@ def test_a_few_know_of_the_same_others_whatever_the_number_of_processes(
     monkeypatch.setattr(module, "_has_place", lambda _: True)
     monkeypatch.setattr(module, "_best_refit", best_refit)
     monkeypatch.setattr(module, "shared_by", lambda _: [])
+    monkeypatch.setattr(module, "from_its_own_machine", lambda best, *_: best)
     monkeypatch.setattr(module, "explained", lambda best, _: Chances(best, 0.5, 0.5))
     monkeypatch.setattr(module, "nothing", lambda _: SimpleNamespace(adequacy=adequacy))
     base: Any = SimpleNamespace(misfit=objective, objective=objective, jacobian=np.zeros((30, 1)))

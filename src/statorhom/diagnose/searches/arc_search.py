@@ -20,11 +20,11 @@ from scipy.stats import qmc
 from statorhom.diagnose.fits.explanations import COARSE, NARROWING, by_degrees, in_valleys, narrowed, refitted
 from statorhom.diagnose.fits.few_vectors import in_few_vectors, in_few_vectors_near, with_neighbours
 from statorhom.diagnose.fits.hypothesis import Hypothesis
+from statorhom.diagnose.fits.own_model import ITSELF, in_its_own_model
 from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.fits.valleys import FAR_BEHIND, apart, different, nearest_first, over_the_prior
 from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.diagnose.searches.refit_starts import Start
-from statorhom.diagnose.searches.sharper import ITSELF, in_its_own_model
 
 WIDTH, RATIO, ANGLE = "arc_deg", "contact_ratio", "angle_rad"
 PLACES = 24  # angles where a narrow valley begins

@@ -16,24 +16,27 @@ from statorhom.identify.residuals.model_error import ModelError
 from statorhom.study.study_file import FREE
 
 
-def typical_where_fled(of: Refit[Hypothesis], stage: StageModel, least: float) -> Refit[Hypothesis] | None:
+def typical_where_fled(
+    of: Refit[Hypothesis], stage: StageModel, least: float, gross: int = 0
+) -> Refit[Hypothesis] | None:
     """The same in the model of a step's typical materials; None where its own have not fled, or no stator has those.
 
     Parameters
     ----------
     of, stage : a refit, and one of its steps.
     least : log evidence that typical materials have to gain, to first order, if they explain as much.
+    gross : how many of the rows that are off most are errors of the measurement, which no material explains.
     """
     # a typical model takes seconds
-    if _loss(of, stage) <= least:
+    if _loss(of, stage, gross) <= least:
         return None
     typical = with_typical_materials(of, stage.name)
-    if typical is None or _loss(of, stage, _same_stage(typical, stage).error) <= least:
+    if typical is None or _loss(of, stage, gross, _same_stage(typical, stage).error) <= least:
         return None
     return typical
 
 
-def _loss(of: Refit[Hypothesis], stage: StageModel, typical: ModelError | None = None) -> float:
+def _loss(of: Refit[Hypothesis], stage: StageModel, gross: int, typical: ModelError | None = None) -> float:
     """Log evidence that a step's own materials lose against typical ones that explain its free frequencies.
 
     They are unusual, they leave more than noise does, and the mesh may be less sure of their modes.
@@ -41,14 +44,19 @@ def _loss(of: Refit[Hypothesis], stage: StageModel, typical: ModelError | None =
     Parameters
     ----------
     of, stage : a refit, and the step.
+    gross : as of `typical_where_fled`.
     typical : the mesh's error with typical materials; one that is sure of every mode by default.
     """
     own = new_constants(of.hypothesis.study.constants, stage.name)
     free = {t.name for t in stage.tests if t.support == FREE}
     unusual = 0.5 * float(of.hypothesis.prior_weights[own] @ of.z[own] ** 2)
     seen = [f for f in of.hypothesis.features(of.z) if f.test in free and f.kind == "frequency"]
-    left = sum(0.5 * max(0.0, f.residual**2 - 1.0) for f in seen)
-    return unusual + left + sum(f.doubt - (0.0 if typical is None else doubt_by(f, typical)) for f in seen)
+    left = sorted((0.5 * max(0.0, f.residual**2 - 1.0) for f in seen), reverse=True)
+    return (
+        unusual
+        + sum(left[gross:])
+        + sum(f.doubt - (0.0 if typical is None else doubt_by(f, typical)) for f in seen)
+    )
 
 
 def _same_stage(of: Refit[Hypothesis], stage: StageModel) -> StageModel:

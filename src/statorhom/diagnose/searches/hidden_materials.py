@@ -19,13 +19,13 @@ from statorhom.diagnose.fits.explanations import (
     explained,
     widened,
 )
+from statorhom.diagnose.fits.own_model import in_its_own_model
 from statorhom.diagnose.fits.refit import Refit, evaluated
 from statorhom.diagnose.located.scan import left_over
 from statorhom.diagnose.searches.alone import with_both_needed
 from statorhom.diagnose.searches.leading_effects import Leading
 from statorhom.diagnose.searches.refit_starts import CHEAP, is_poor, price, searched, starts_of
 from statorhom.diagnose.searches.second_effects import may_be_added, second_effects
-from statorhom.diagnose.searches.sharper import in_its_own_model
 from statorhom.errors import StatorhomError
 
 GAIN = 20.0  # of the objective in wide valleys, from which on other materials are worth a model of their own

@@ -26,6 +26,7 @@ from statorhom.diagnose.fits.explanations import (
     refitted,
 )
 from statorhom.diagnose.fits.hypothesis import Hypothesis
+from statorhom.diagnose.fits.own_model import in_its_own_model
 from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.searches.arc_search import (
     ANYWHERE,
@@ -39,13 +40,13 @@ from statorhom.diagnose.searches.arc_search import (
 )
 from statorhom.diagnose.searches.fled_materials import typical_where_fled
 from statorhom.diagnose.searches.refit_starts import Start, first_start
-from statorhom.diagnose.searches.sharper import in_its_own_model
 from statorhom.diagnose.searches.typical_materials import with_typical_materials
 from statorhom.diagnose.stages.constants import new_constants
 from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate
 
 ROUNDS = 3  # models of its own for the best one
+GROSS = 1  # row that may be off by an error of the measurement before its winding has fled for that
 NARROW = 0.6, 1.6  # times the width of an arc's first start, that the bases know where narrow arcs are sought
 
 
@@ -108,7 +109,7 @@ def _lacks_partners(best: Refit, arc: Candidate) -> bool:
 def _has_fled(best: Refit, arc: Candidate) -> bool:
     """Whether the winding that came with what leads explains by being unusual or sure of nothing."""
     stages = [s for s in best.hypothesis.study.stages if s.name == arc.stage]
-    return any(typical_where_fled(best, stage, OVER_NOTHING) is not None for stage in stages)
+    return any(typical_where_fled(best, stage, OVER_NOTHING, GROSS) is not None for stage in stages)
 
 
 def _beside_any(base: Refit, candidate: Candidate, worth: float) -> Refit | None:

@@ -7,13 +7,11 @@ valley that the right belief does not have.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import suppress
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from statorhom.diagnose.contacts.joint_training import KnownArc
 from statorhom.diagnose.evidence.decision import NEAR_RIVAL
 from statorhom.diagnose.fits.explanations import (
     ADEQUATE,
@@ -24,16 +22,12 @@ from statorhom.diagnose.fits.explanations import (
     through_wide_valleys,
     widened,
 )
-from statorhom.diagnose.fits.hypothesis import Hypothesis
+from statorhom.diagnose.fits.own_model import AROUND, ITSELF, in_its_own_model
 from statorhom.diagnose.fits.refit import Refit, refit, refit_objective
 from statorhom.diagnose.fits.valleys import APART, FAR_BEHIND, SETTLED, best_of_sides
 from statorhom.diagnose.located.mirrored import at_fitting_height
 from statorhom.diagnose.searches.single_effects import is_a_field
-from statorhom.diagnose.stages.stage_model import StageModel, mesh_error, with_reference
 from statorhom.errors import StatorhomError
-from statorhom.model.affine import Materials
-from statorhom.model.broken.change import Change
-from statorhom.physics.action import Action
 
 MOST = 3  # explanations that get models of their own before a second effect is sought
 ROUNDS = 3  # models of one explanation
@@ -43,8 +37,6 @@ MOVED = (
 )
 WORSE = 10.0  # of the cost, by which a model of its own is worse than the common one
 AWAY = 2.0  # of the objective, by which an optimum is none in its own model
-AROUND = 1 / 1.1, 1.1  # times its own arc, at which a contact that is lost over one is solved
-ITSELF = (1.0,)  # the same of a rival: each arc that is solved takes as long as all else
 BEHIND = 150.0  # log evidence by which others are too far behind for that
 
 
@@ -146,68 +138,6 @@ def _half_way(r: Refit, again: Refit, around: tuple[float, ...]) -> Refit | None
         return refitted(in_its_own_model(r.hypothesis, middle, around=around), middle)
     except (StatorhomError, KeyError):
         return None
-
-
-def in_its_own_model(
-    hypothesis: Hypothesis,
-    z: np.ndarray,
-    *,
-    quick: bool = False,
-    elsewhere: Sequence[np.ndarray] = (),
-    around: tuple[float, ...] = AROUND,
-) -> Hypothesis:
-    """With basis and mesh factors of its own materials, and the local fields of its effects; to be paired anew.
-
-    Parameters
-    ----------
-    hypothesis, z : what, and where.
-    quick : whether the old mesh factors do, and the local fields that a basis holds of any such effects.
-    elsewhere : other coordinates, of which the contact is solved too where it is lost over an arc.
-    around : times an effect's own arc, at which its contact is solved.
-
-    Raises
-    ------
-    StatorhomError
-        If no stator has these constants.
-    """
-    actions, stages = hypothesis.actions(z), []
-    for stage in hypothesis.study.stages:
-        materials = hypothesis.materials(stage, z)
-        arcs = (*_arcs(actions, around), *_arcs_elsewhere(hypothesis, stage, elsewhere))
-        near = with_reference(stage, materials, arcs, {} if quick else _examples(stage, materials, actions))
-        if not quick:
-            near = near.with_error(mesh_error(stage.setup, near.ring, materials, stage.density))
-        stages.append(near)
-    return replace(hypothesis, study=hypothesis.study.with_stages(tuple(stages)), held=None)
-
-
-def _examples(
-    stage: StageModel, materials: Materials, actions: Sequence[Action]
-) -> dict[str, tuple[tuple[Change, ...]]]:
-    """What effects change in a stage, by the key of their training: a strong one's local fields are its own."""
-    return {
-        a.training.key: (a.changes(stage.model.mesh, materials),)
-        for a in actions
-        if a.training and a.changes and a.touches(stage.name)
-    }
-
-
-def _arcs(actions: Sequence[Action], around: Sequence[float]) -> tuple[KnownArc, ...]:
-    """Around those of a contact that is weaker over an arc."""
-    arcs = [
-        (a.joint.arc[1], a.joint.ratio) for a in actions if a.joint is not None and a.joint.arc is not None
-    ]
-    return tuple(KnownArc(min(w * f, 2 * np.pi), q / f**2) for w, q in arcs for f in around)
-
-
-def _arcs_elsewhere(
-    hypothesis: Hypothesis, stage: StageModel, points: Sequence[np.ndarray]
-) -> Iterator[KnownArc]:
-    """Of other coordinates, with the materials there; none where no stator has these."""
-    for z in points:
-        with suppress(StatorhomError):
-            materials = hypothesis.materials(stage, z)
-            yield from (arc._replace(materials=materials) for arc in _arcs(hypothesis.actions(z), ITSELF))
 
 
 def refined(

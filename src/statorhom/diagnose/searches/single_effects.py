@@ -30,6 +30,7 @@ from statorhom.diagnose.located.turned import at_fitting_angle
 from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.diagnose.searches.from_the_best import from_the_best
 from statorhom.diagnose.searches.mislabelled import worth_trying
+from statorhom.diagnose.searches.own_machine import from_its_own_machine
 from statorhom.diagnose.searches.refit_starts import (
     CHEAP,
     DEAR,
@@ -101,7 +102,12 @@ def refits(
             tasks,
             shared_by([start for starts, _ in tasks for start in starts]),
         )
-        explanations += [explained(best, counts) for best in found if best is not None]
+        # machines that are solved are kept where all later refits find them
+        explanations += [
+            explained(from_its_own_machine(best, base.objective, _beside_later_steps), counts)
+            for best in found
+            if best is not None
+        ]
     return explanations
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from statorhom.diagnose.fits.explanations import blank
 from statorhom.diagnose.fits.hypothesis import Hypothesis
+from statorhom.diagnose.fits.own_model import in_its_own_model
 from statorhom.diagnose.fits.refit import Refit, evaluated
-from statorhom.diagnose.searches.sharper import in_its_own_model
 from statorhom.diagnose.stages.constants import new_constants
 from statorhom.errors import StatorhomError
 

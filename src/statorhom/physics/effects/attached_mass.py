@@ -26,6 +26,7 @@ LARGEST = 0.2  # of the stage's mass
 
 class AttachedMass(Effect):
     name = "attached_mass"
+    part = "the back of the core"
     on_tubes = True
     open_by_shape = 0.08  # foot and height of the lump are not known: seen on lumps of 30 g to 1 kg
     summary = "a lump on the back of the core is not in the model"

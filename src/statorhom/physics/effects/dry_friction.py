@@ -19,6 +19,7 @@ LAW = "law"
 
 class DryFriction(Effect):
     name = "dry_friction"
+    part = "a contact"
     summary = "a contact slips: stiffness falls and damping rises with the amplitude"
     citation = "Gaul and Nitsche (2001), Appl. Mech. Rev. 54 (joints); Iwan (1966), J. Appl. Mech. 33"
     confused_with = (

@@ -18,6 +18,7 @@ WINDING_STEPS = ("wound", "impregnated")
 
 class EndWindingStiffness(Effect):
     name = "end_winding_stiffness"
+    part = "the winding"
     summary = "the overhang of the winding is stiffer or softer than the winding in the slots"
     citation = "Den Hartog (1956), Mechanical Vibrations, ch. 3 (the vibration absorber)"
     confused_with = (

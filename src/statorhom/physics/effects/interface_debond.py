@@ -21,6 +21,7 @@ LOSS = EffectParameter("contact_loss_factor", 0.005, 0.3, 1e-4, 2.0, "log", (0.0
 
 class InterfaceDebond(Effect):
     name = "interface_debond"
+    part = "the winding"
     summary = "winding and teeth have lost contact over an arc"
     citation = "Goodman, Taylor and Brekke (1968), J. Soil Mech. Found. Div. 94, 637 (zero-thickness contact)"
     confused_with = (Confusion("end_winding_stiffness", "the pattern around the circumference"),)

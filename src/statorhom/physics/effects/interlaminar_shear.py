@@ -26,6 +26,7 @@ def sheared(material: Material, shear_pa: float, axial_pa: float) -> Material:
 
 class InterlaminarShear(Effect):
     name = "interlaminar_shear"
+    part = "the sheets of the stack"
     summary = "the sheets slide on each other: the stack is much softer in G_rz than an isotropic one"
     citation = "Backus (1962), J. Geophys. Res. 67, 4427 (fine layers)"
     confused_with = (

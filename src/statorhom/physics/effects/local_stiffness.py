@@ -34,6 +34,7 @@ RATIO = EffectParameter("stiffness_ratio", 0.3, 2.5, 0.02, 12.0, "log", (0.6, 1.
 
 class LocalStiffness(Effect):
     name = "local_stiffness"
+    part = "the back of the core"
     on_tubes = True
     # a strip that is wider and less soft splits modes almost alike, and no edge is sharp: seen on strips of 6 to 16°
     open_by_shape = 0.12

@@ -17,6 +17,7 @@ FRACTION = EffectParameter("participating_fraction", 0.3, 0.97, 0.02, 1.0, "log"
 
 class LooseWindingMass(Effect):
     name = "loose_winding_mass"
+    part = "the winding"
     summary = "only part of the winding's mass moves with the teeth"
     citation = "Soedel (2004), Vibrations of Shells and Plates (added masses)"
     confused_with = (Confusion("wrong_input", "weighing again"),)

@@ -14,6 +14,7 @@ ORDERS, NODE_PLANES = range(6), range(4)
 
 class MislabelledMode(Effect):
     name = "mislabelled_mode"
+    part = "the files"
     on_tubes = True
     summary = "a mode carries the wrong order in its table"
     citation = "Allemang (2003), Sound & Vibration 37(8), 14"

@@ -26,6 +26,7 @@ AMPLITUDE = EffectParameter("relative_amplitude", 0.003, 0.05, 1e-4, 0.3, "log",
 
 class Ovality(Effect):
     name = "ovality"
+    part = "the back of the core"
     on_tubes = True
     summary = "the yoke's stiffness or thickness varies around the stator as cos n(θ − α)"
     citation = "Hwang, Fox and McWilliam (1999), J. Sound Vib. 220, 497 (rings of varying profile)"

@@ -16,6 +16,7 @@ SHARE = EffectParameter("tangential_ratio", 0.3, 1.0, 0.05, 2.0, "log", (0.6,), 
 
 class PressFitContact(Effect):
     name = "press_fit_contact"
+    part = "the fit of the frame"
     summary = "frame and core are joined by a contact of finite stiffness"
     citation = "Johnson (1985), Contact Mechanics, ch. 13 (rough surfaces)"
     confused_with = (Confusion("wrong_input", "the frame alone"),)

@@ -16,6 +16,7 @@ MASS = EffectParameter("mass_kg", 0.001, 0.03, 1e-4, 0.2, "log", (0.008,), None)
 
 class SensorMass(Effect):
     name = "sensor_mass"
+    part = "the sensors"
     on_tubes = True
     summary = "the roving accelerometer's mass moves the poles from point to point"
     citation = "Ewins (2000), Modal Testing, ch. 3"

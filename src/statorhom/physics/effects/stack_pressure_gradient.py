@@ -31,6 +31,7 @@ SHEAR = tuple(entry in ((3, 3), (4, 4)) for entry in HOOKE_ENTRIES)  # between s
 
 class StackPressureGradient(Effect):
     name = "stack_pressure_gradient"
+    part = "the sheets of the stack"
     summary = "the axial contact pressure, and with it G_rz and E_z, varies along the stack"
     citation = "Johnson (1985), Contact Mechanics, ch. 13 (rough surfaces)"
     confused_with = (Confusion("interlaminar_shear", "the shapes along z"),)

@@ -20,6 +20,7 @@ RATIO = EffectParameter("tangential_ratio", 0.2, 1.5, 0.02, 4.0, "log", (0.7,), 
 
 class SupportCompliance(Effect):
     name = "support_compliance"
+    part = "a support"
     summary = "a support that is declared rigid is elastic"
     citation = "Ewins (2000), Modal Testing, ch. 3"
     confused_with = (Confusion("temperature_shift", "the free test: only the supported one is off"),)

@@ -25,6 +25,7 @@ OF_COUPONS = EffectParameter("stiffness_n_per_m", 300.0, 1e6, 10.0, 1e8, "log", 
 
 class SuspensionStiffness(Effect):
     name = "suspension_stiffness"
+    part = "a support"
     summary = "a test that is declared free hangs on something stiff"
     citation = "Carne, Griffith and Casias (2007), Proc. IMAC 25"
     confused_with = (

@@ -20,6 +20,7 @@ TEMPERATURE = EffectParameter("temperature_k", -40.0, 60.0, -80.0, 150.0, "linea
 
 class TemperatureShift(Effect):
     name = "temperature_shift"
+    part = "the conditions of a test"
     summary = "a test was run at another temperature than assumed"
     citation = "Nashif, Jones and Henderson (1985), Vibration Damping (moduli over temperature)"
     confused_with = (Confusion("wrong_input", "a thermometer"),)

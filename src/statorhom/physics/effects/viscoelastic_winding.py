@@ -19,6 +19,7 @@ SLOPE = EffectParameter("modulus_slope_per_decade", -0.1, 0.8, -0.5, 2.5, "linea
 
 class ViscoelasticWinding(Effect):
     name = "viscoelastic_winding"
+    part = "the winding"
     summary = "the winding's modulus rises with frequency"
     citation = "Nashif, Jones and Henderson (1985), Vibration Damping (moduli over frequency)"
     confused_with = (Confusion("end_winding_stiffness", "a probe on the overhang"),)

@@ -28,6 +28,7 @@ SPREAD = 1.3  # a wrong number is off by up to this factor nine times out of ten
 
 class WrongInput(Effect):
     name = "wrong_input"
+    part = "the files"
     summary = "a mass or a dimension in the files contradicts the recordings"
     citation = "Mottershead and Friswell (1993), J. Sound Vib. 167, 347"
     confused_with = (

@@ -56,12 +56,7 @@ def _title(effect: str) -> str:
 
 def _lines(effect: EffectResult, details: Details) -> tuple[Text, ...]:
     summary = details.summaries.get(effect.effect) or details.summary or effect_words(effect.effect)
-    lines = [text(f"What: {summary}.")]
-    where = [f"step {effect.stage}"]
-    where += [f"test {effect.test}"] if effect.test else []
-    where += [effect.region] if effect.region else []
-    place = place_words(effect)
-    lines.append(text(f"Where: {', '.join(where)}{'; ' + place if place else ''}."))
+    lines = [text(f"What: {summary}."), text(f"Where: {_where(effect)}.")]
     sizes = sizes_words(effect.parameters)
     if sizes:
         lines.append(text("How much: ", strong(sizes), "."))
@@ -71,14 +66,34 @@ def _lines(effect: EffectResult, details: Details) -> tuple[Text, ...]:
     return tuple(lines)
 
 
+def _where(effect: EffectResult) -> str:
+    where = [f"step {effect.stage}"]
+    where += [f"test {effect.test}"] if effect.test else []
+    where += [effect.region] if effect.region else []
+    place = place_words(effect)
+    return f"{', '.join(where)}{'; ' + place if place else ''}"
+
+
 def _alternatives(d: Diagnosis, details: Details) -> list[Text]:
-    return [
-        text(
-            strong(_title(a.effect)),
-            f" (probability {_percent(a.probability)}): {_summary(a.effect, details)}",
+    told = {"+".join(e.effect for e in effects): effects for effects in details.possible}
+    lines = (
+        [text(strong(f"Whichever it is, it concerns {' and '.join(details.part)}."))] if details.part else []
+    )
+    for a in d.alternatives:
+        lines.append(
+            text(
+                strong(_title(a.effect)),
+                f" (probability {_percent(a.probability)}): {_summary(a.effect, details)}",
+                *(f". {_would_be(effect)}" for effect in told.get(a.effect, ())),
+            )
         )
-        for a in d.alternatives
-    ]
+    return lines
+
+
+def _would_be(effect: EffectResult) -> str:
+    """Where and how large, if it is that."""
+    sizes = sizes_words(effect.parameters)
+    return f"It would be in {_where(effect)}" + (f"; {sizes}" if sizes else "")
 
 
 def _summary(effect: str, details: Details) -> str:
