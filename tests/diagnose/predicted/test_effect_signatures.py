@@ -17,8 +17,7 @@ from statorhom.diagnose.measured.measured_test import PlaneShifts
 from statorhom.diagnose.predicted.prediction import material_vector, predicted
 from statorhom.diagnose.predicted.sensor_response import sensor_response
 from statorhom.diagnose.stages.broken_response import responses
-from statorhom.diagnose.stages.changed_machine import changed_geometry, step_of
-from statorhom.diagnose.stages.dimension_response import _shifts, dimension_shift
+from statorhom.diagnose.stages.dimension_response import _shifts, changed_geometry, dimension_shift, step_of
 from statorhom.diagnose.stages.stage_model import StageModel
 from statorhom.diagnose.stages.study_model import StudyModel
 from statorhom.geometry.stator import stator_geometry
@@ -279,25 +278,6 @@ def test_a_dimension_that_is_far_off(step: float, files: StudyFiles) -> None:
         shift = after[key] - before[key]
         assert abs(shift) > 5e-3
         assert dimension_shift(study, stage, dimension, key) == pytest.approx(shift, rel=0.02, abs=1e-4)
-
-
-@pytest.mark.parametrize("name", ["core.yoke_thickness_mm", "core.length_mm"])
-@pytest.mark.parametrize("step", [-0.2, 0.15])
-def test_a_machine_far_away_is_seen_from_one_near_it(name: str, step: float, files: StudyFiles) -> None:
-    """The cubic about the declared machine misses by up to half a per mille, that about a near one by none."""
-    study, stage = stack_alone(files)
-    dimension = {name: TYPED_MM[name] * float(np.exp(step))}
-    exact = difference(log_of_changed(study, stage, name, step), log_of_changed(study, stage, name, 0.0))
-    near = stage.near_machines({name: 0.92 * step})
-    far_off, nearly = (
-        difference({key: dimension_shift(study, one, dimension, key) for key in KEYS}, exact)
-        for one in (stage, near)
-    )
-    assert max(map(abs, nearly.values())) < 0.02 * max(map(abs, far_off.values()))
-
-
-def difference(one: dict[ModeKey, float], other: dict[ModeKey, float]) -> dict[ModeKey, float]:
-    return {key: one[key] - other[key] for key in KEYS}
 
 
 def stack_alone(files: StudyFiles) -> tuple[StudyModel, StageModel]:

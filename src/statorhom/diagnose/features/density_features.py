@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from statorhom.diagnose.measured.feature import Feature
-from statorhom.diagnose.stages.changed_machine import changed_geometry, step_of
+from statorhom.diagnose.stages.dimension_response import changed_geometry, step_of
 from statorhom.diagnose.stages.masses import KNOWN, stage_densities
 from statorhom.diagnose.stages.study_model import StudyModel
 from statorhom.materials.density import REGION_OF_STEP

@@ -87,6 +87,10 @@ class AnyHypothesis(ABC):
             If no body has these constants.
         """
 
+    def of_others(self, candidates: tuple[Candidate, ...]) -> Self:
+        """The same with other effects, to be paired anew."""
+        return replace(self, candidates=candidates, held=None, missed=0.0)
+
     @abstractmethod
     def features_of_all(self, z: FloatArray) -> list[Feature]:
         """Features whether seen or left out, at a held pairing; what wide valleys never see may be missing."""

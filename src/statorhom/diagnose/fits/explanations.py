@@ -146,7 +146,7 @@ def explained(best: Refit, counts: dict[str, int]) -> Explanation:
 
 def blank(hypothesis: _H, candidates: tuple[Candidate, ...]) -> _H:
     """The same with other effects, and modes to be paired anew."""
-    return replace(hypothesis, candidates=candidates, held=None, missed=0.0)
+    return hypothesis.of_others(candidates)
 
 
 def refitted(hypothesis: _H, z: np.ndarray, worth: float = np.inf) -> Refit[_H] | None:

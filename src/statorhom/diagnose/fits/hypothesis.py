@@ -50,6 +50,7 @@ from statorhom.diagnose.stages.study_model import StudyModel
 from statorhom.model.affine import Materials
 from statorhom.model.convergence import ModeKey
 from statorhom.physics.action import Action
+from statorhom.physics.candidate import Candidate
 from statorhom.study.modal_table import MeasuredMode
 from statorhom.study.study_file import FREE
 
@@ -86,6 +87,15 @@ class Hypothesis(AnyHypothesis):
         kind = "" if self.trained else " untrained"
         own = ((c.label + kind, tuple(v.values())) for c, v in zip(self.candidates, values, strict=True))
         return (*own, *((f"declared {i}", ()) for i in range(len(self.study.effects))))
+
+    def of_others(self, candidates: tuple[Candidate, ...]) -> Hypothesis:
+        """The same with other effects, to be paired anew; of the machine as it is typed, unless they correct it."""
+        other = super().of_others(candidates)
+        typed = self.study.as_typed
+        if typed is None:
+            return other
+        corrected = {name for a in other.actions(np.zeros(len(other))) for name in a.dimensions}
+        return other if corrected >= self.study.dimensions.keys() else replace(other, study=typed)
 
     def materials(self, stage: StageModel, z: FloatArray) -> Materials:
         """Of a step, as constants and effects make them.

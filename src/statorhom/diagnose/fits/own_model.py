@@ -10,16 +10,22 @@ import numpy as np
 
 from statorhom.diagnose.contacts.joint_training import KnownArc
 from statorhom.diagnose.fits.hypothesis import Hypothesis
-from statorhom.diagnose.stages.changed_machine import scaled, typed
+from statorhom.diagnose.fits.valleys import trials_around
+from statorhom.diagnose.stages.constants import new_constants
+from statorhom.diagnose.stages.dimension_response import scaled, typed
+from statorhom.diagnose.stages.redrawn_study import redrawn
 from statorhom.diagnose.stages.stage_model import StageModel, mesh_error, with_reference
-from statorhom.errors import StatorhomError
+from statorhom.diagnose.stages.study_model import StudyModel
+from statorhom.errors import GeometryError, StatorhomError
 from statorhom.model.affine import Materials
 from statorhom.model.broken.change import Change
 from statorhom.physics.action import Action
 
 AROUND = 1 / 1.1, 1.1  # times its own arc, at which a contact that is lost over one is solved
 ITSELF = (1.0,)  # the same of a rival: each arc that is solved takes as long as all else
-NEAR = 0.015  # of ln(dimension): half of how far to either side a cubic about a machine is solved
+NEAR = 0.015  # of ln(dimension): half of how far to either side of the drawn machine its cubic is solved
+
+SNAPSHOTS, SEED = 6, 0  # materials of a step that a machine drawn anew knows; of their draw
 
 
 def in_its_own_model(
@@ -44,16 +50,60 @@ def in_its_own_model(
     StatorhomError
         If no stator has these constants.
     """
+    drawn = on_its_own_machine(hypothesis, z)
     actions, stages = hypothesis.actions(z), []
-    for stage in hypothesis.study.stages:
-        materials = hypothesis.materials(stage, z)
-        arcs = (*_arcs(actions, around), *_arcs_elsewhere(hypothesis, stage, elsewhere))
+    for stage in drawn.study.stages:
+        materials = drawn.materials(stage, z)
+        arcs = (*_arcs(actions, around), *_arcs_elsewhere(drawn, stage, elsewhere))
         near = with_reference(stage, materials, arcs, {} if quick else _examples(stage, materials, actions))
-        if not quick:
+        if not quick and drawn is hypothesis:
             near = near.with_error(mesh_error(stage.setup, near.ring, materials, stage.density))
         stages.append(near)
-    moved = replace(hypothesis, study=hypothesis.study.with_stages(tuple(stages)), held=None)
-    return near_its_machine(moved, z)
+    return replace(drawn, study=drawn.study.with_stages(tuple(stages)), held=None)
+
+
+def on_its_own_machine(hypothesis: Hypothesis, z: np.ndarray) -> Hypothesis:
+    """With a model of the machine that has its dimensions, to be paired anew.
+
+    The same where they are near its model's, or none can be drawn.
+
+    Raises
+    ------
+    StatorhomError
+        If no stator has these constants.
+    """
+    if not is_far(hypothesis, z):
+        return hypothesis
+
+    def known(study: StudyModel, stage: StageModel) -> list[Materials]:
+        there = replace(hypothesis, study=study)
+        elsewhere = trials_around(z, new_constants(study.constants, stage.name), SEED)[1:SNAPSHOTS]
+        return [there.materials(stage, z), *_possible(there, stage, elsewhere)]
+
+    try:
+        study = redrawn(hypothesis.study, _dimensions(hypothesis, z), known)
+    except GeometryError:
+        return hypothesis
+    return replace(hypothesis, study=study, held=None)
+
+
+def _possible(hypothesis: Hypothesis, stage: StageModel, points: Sequence[np.ndarray]) -> Iterator[Materials]:
+    """Materials of a stage at some points, where there are such."""
+    for z in points:
+        with suppress(StatorhomError):
+            yield hypothesis.materials(stage, z)
+
+
+def is_far(hypothesis: Hypothesis, z: np.ndarray) -> bool:
+    """Whether an effect has a dimension far from the machine that is drawn."""
+    study = hypothesis.study
+    away = {n: np.log(value / typed(study, n)) for n, value in _dimensions(hypothesis, z).items()}
+    return any(abs(t) > NEAR * scaled(study, n) for n, t in away.items())
+
+
+def _dimensions(hypothesis: Hypothesis, z: np.ndarray) -> dict[str, float]:
+    """What effects correct, "section.key" → value."""
+    return {name: value for action in hypothesis.actions(z) for name, value in action.dimensions.items()}
 
 
 def _examples(
@@ -80,31 +130,5 @@ def _arcs_elsewhere(
 ) -> Iterator[KnownArc]:
     """Of other coordinates, with the materials there; none where no stator has these."""
     for z in points:
-        with suppress(StatorhomError):
-            materials = hypothesis.materials(stage, z)
+        for materials in _possible(hypothesis, stage, [z]):
             yield from (arc._replace(materials=materials) for arc in _arcs(hypothesis.actions(z), ITSELF))
-
-
-def near_its_machine(hypothesis: Hypothesis, z: np.ndarray) -> Hypothesis:
-    """Other dimensions seen from the machine that has those of z; the same where none is far."""
-    if not is_far(hypothesis, z):
-        return hypothesis
-    stages = tuple(stage.near_machines(_machines(hypothesis, z)) for stage in hypothesis.study.stages)
-    return replace(hypothesis, study=hypothesis.study.with_stages(stages))
-
-
-def is_far(hypothesis: Hypothesis, z: np.ndarray) -> bool:
-    """Whether an effect has a dimension far from the machine that it is seen from."""
-    study = hypothesis.study
-    known = study.stages[0].machines
-    away = {name: abs(t - known.get(name, 0.0)) for name, t in _machines(hypothesis, z).items()}
-    return any(t > NEAR * scaled(study, name) for name, t in away.items())
-
-
-def _machines(hypothesis: Hypothesis, z: np.ndarray) -> dict[str, float]:
-    """Change of ln of every dimension that an effect corrects."""
-    return {
-        name: float(np.log(value / typed(hypothesis.study, name)))
-        for action in hypothesis.actions(z)
-        for name, value in action.dimensions.items()
-    }

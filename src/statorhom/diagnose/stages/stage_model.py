@@ -58,8 +58,6 @@ class StageModel:
     density : of the mesh.
     arcs : at which a contact that is weaker over one is predicted as the mesh has it.
     examples : key of a training → further examples of its changes, which the basis holds well.
-    machines : dimension ("section.key") → change of its ln, of the machine from which others are seen that have another
-        one; the declared one by default.
     """
 
     setup: StageSetup
@@ -73,7 +71,6 @@ class StageModel:
     _slopes: dict[bytes, dict[tuple[int, int], np.ndarray]] = field(default_factory=dict, repr=False)
     arcs: tuple[KnownArc, ...] = ()
     examples: Mapping[str, Examples] = field(default_factory=dict)
-    machines: Mapping[str, float] = field(default_factory=dict)
     # what belongs to the reference and takes seconds
     memory: Memory = field(default_factory=Memory, repr=False)
     _trained: dict[tuple[str, ...], TrainedBasis] = field(default_factory=dict, repr=False)
@@ -200,10 +197,6 @@ class StageModel:
     def with_tests(self, tests: Sequence[MeasuredTest]) -> StageModel:
         """The same stage with other measurements."""
         return self._of_reference(replace(self, tests=tuple(tests)))
-
-    def near_machines(self, machines: Mapping[str, float]) -> StageModel:
-        """The same stage, machines of other dimensions seen from others than the declared one."""
-        return self._of_reference(replace(self, machines=machines))
 
     def _of_reference(self, other: StageModel) -> StageModel:
         """Another one at the same reference, which knows what belongs to that alone."""

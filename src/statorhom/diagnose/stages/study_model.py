@@ -35,6 +35,8 @@ class StudyModel:
     constants : of all steps.
     stages : the tested ones.
     effects : what the study declares beside materials and supports.
+    dimensions : "section.key" → value, which the files have otherwise (`statorhom.diagnose.stages.redrawn_study`).
+    as_typed : the study as they have it; None where this is that.
     """
 
     files: StudyFiles
@@ -42,6 +44,8 @@ class StudyModel:
     constants: Constants
     stages: tuple[StageModel, ...]
     effects: tuple[Action, ...] = ()
+    dimensions: Mapping[str, float] = field(default_factory=dict)
+    as_typed: StudyModel | None = None
     _volumes: dict[int, Mapping[str, float]] = field(default_factory=dict, repr=False)
     # predictions, damping and slopes ask for the same ones in turn
     _latest: Kept = field(default_factory=partial(Kept, MATERIALS), init=False, repr=False)
