@@ -99,7 +99,7 @@ def test_what_it_may_be_is_told_with_place_and_size() -> None:
     assert (
         "It would be in step stack, lamination; at 95° ± 4.9° around the axis; stiffness ratio 0.70" in said
     )
-    assert "at 40° ± 3.3° around the axis; harmonic 2" in said
+    assert "at 40° ± 3.3° around the axis; harmonic 2;" in said
     open_part = example_details("ambiguous").model_copy(update={"part": ()})
     assert "Whichever it is" not in words_of(
         render_html(diagnosis_document(example_diagnosis("ambiguous"), open_part))

@@ -83,8 +83,8 @@ def _alternatives(d: Diagnosis, details: Details) -> list[Text]:
         lines.append(
             text(
                 strong(_title(a.effect)),
-                f" (probability {_percent(a.probability)}): {_summary(a.effect, details)}",
-                *(f". {_would_be(effect)}" for effect in told.get(a.effect, ())),
+                f" (probability {_percent(a.probability)}): {_summary(a.effect, details)}.",
+                *(f" {_would_be(effect)}" for effect in told.get(a.effect, ())),
             )
         )
     return lines
@@ -93,7 +93,7 @@ def _alternatives(d: Diagnosis, details: Details) -> list[Text]:
 def _would_be(effect: EffectResult) -> str:
     """Where and how large, if it is that."""
     sizes = sizes_words(effect.parameters)
-    return f"It would be in {_where(effect)}" + (f"; {sizes}" if sizes else "")
+    return f"It would be in {_where(effect)}{'; ' + sizes if sizes else ''}."
 
 
 def _summary(effect: str, details: Details) -> str:

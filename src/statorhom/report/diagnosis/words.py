@@ -81,7 +81,9 @@ def quantity(name: str, value: Estimated | float | str) -> str:
     if isinstance(number, str):
         return f"{words}: {one_line(number)}"
     if interval is None:
-        return f"{words} {figure(number * factor)}{_spaced(unit)}"
+        # a number of waves is whole
+        shown = f"{number:.0f}" if not unit and number == round(number) else figure(number * factor)
+        return f"{words} {shown}{_spaced(unit)}"
     low, high = (end * factor for end in interval)
     ends = (low, high)
     shown = figure(number * factor, ends)
