@@ -18,12 +18,21 @@ from statorhom.geometry.stator import stator_geometry
 from statorhom.identify.stages.stage_setup import stage_setup
 from statorhom.mesh import uniform
 
+LENGTH_MM = 80.5  # of the template's core
+
 
 def template_hypothesis(
-    folder: Path, tables: dict[str, str], more: str = "", *, with_losses: bool = False
+    folder: Path,
+    tables: dict[str, str],
+    more: str = "",
+    *,
+    with_losses: bool = False,
+    length_mm: float = LENGTH_MM,
 ) -> Hypothesis:
-    """Of a study with modal tables of these names; `more` is added to its file."""
+    """Of a study with modal tables of these names; `more` is added to its file, the core's length is what is typed."""
     write_template(folder)
+    drawing = folder / "geometry.toml"
+    drawing.write_text(drawing.read_text().replace(f"length_mm = {LENGTH_MM}", f"length_mm = {length_mm}"))
     for name, table in tables.items():
         (folder / name).write_text(table)
     with (folder / "study.toml").open("a") as study:

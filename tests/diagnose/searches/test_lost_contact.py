@@ -41,13 +41,14 @@ class Search:
         self.objectives = list(objectives)
         self.lost: list[str] = []  # tests of which what leads lacks a line
         self.fled = False  # whether the winding of what leads has
+        self.before = 0.0  # what the steps before the winding leave of the declared model
         items = tuple(SimpleNamespace(name=n, log=not n.endswith("nu_p"), fixed=False) for n in NAMES)
         tests = (SimpleNamespace(name="wound-free"),)
         stage = SimpleNamespace(
             name="wound", tests=tests, setup=SimpleNamespace(keys=SimpleNamespace(name="wound"))
         )
         self.study = study = SimpleNamespace(constants=SimpleNamespace(items=items), stages=(stage,))
-        hypothesis = SimpleNamespace(study=study, candidates=())
+        hypothesis = SimpleNamespace(study=study, candidates=(), constants=4)
         self.base: Any = SimpleNamespace(
             hypothesis=hypothesis, z=np.array([0.4, -2.0, -2.5, 0.7]), log_evidence=-200.0
         )
@@ -67,6 +68,7 @@ class Search:
         monkeypatch.setattr(module, "followed_near", self.near)
         monkeypatch.setattr(module, "typical_where_fled", lambda _, stage, *__: stage if self.fled else None)
         monkeypatch.setattr(module, "refitted", self.refit)
+        monkeypatch.setattr(module, "left_before", lambda *_: self.before)
 
     @staticmethod
     def start(base: Any, candidate: Candidate, z: np.ndarray) -> Start:
@@ -78,7 +80,7 @@ class Search:
         lines += [SimpleNamespace(test=test, lost=True) for test in self.lost]
         hypothesis = SimpleNamespace(study=self.study, constants=4, features=lambda _: lines)
         return SimpleNamespace(
-            **{"z": None, "objective": objective, "cost": objective, "hypothesis": hypothesis, **told}
+            **{"z": np.zeros(8), "objective": objective, "cost": objective, "hypothesis": hypothesis, **told}
         )
 
     def explanation(
@@ -247,6 +249,18 @@ def test_behind_a_winding_that_has_fled_arcs_are_sought_anywhere(monkeypatch: py
     (found,) = with_lost_contact(search.base, [enough], [ARCS], {})
     assert found.refit.objective == 25.0
     assert search.worth == 60.0 and search.reach is ANYWHERE
+
+
+@pytest.mark.parametrize(("before", "sought"), [(70.0, True), (90.0, False)])
+def test_no_arc_of_a_winding_mends_what_the_bare_stack_leaves(
+    monkeypatch: pytest.MonkeyPatch, before: float, sought: bool
+) -> None:
+    """A wrong yoke that left one mistaken line: without it the stack alone leaves more than all with it."""
+    search = Search(monkeypatch, (25.0,))
+    search.fled, search.before = True, before
+    enough = search.explanation(-50.0, search.leader(20.0, cost=60.0), adequacy=0.5)
+    assert bool(with_lost_contact(search.base, [enough], [ARCS], {})) == sought
+    assert bool(search.begun) == sought
 
 
 def test_an_arc_that_explains_less_is_no_news(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -39,6 +39,23 @@ def none(_: Any) -> list[Any]:
     return []
 
 
+def test_its_own_machine_is_no_worse_for_leaving_more_than_a_cubic_promised(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    Followed(monkeypatch, [400.0, 60.0, 59.0])
+    assert from_its_own_machine(optimum(300.0), KNOWN, none).objective == 60.0
+    Followed(monkeypatch, [400.0, 399.5])
+    assert from_its_own_machine(optimum(300.0), KNOWN, none).objective == 300.0
+
+
+def test_what_its_own_machine_explains_worse_than_the_declared_model_is_not_followed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    followed = Followed(monkeypatch, [520.0, 60.0])
+    assert from_its_own_machine(optimum(300.0), KNOWN, none).objective == 300.0
+    assert followed.solved == [300.0]
+
+
 def test_it_is_followed_while_that_gains(monkeypatch: pytest.MonkeyPatch) -> None:
     """Though next to nothing is left before: it may be by constants that are not its own machine's."""
     followed = Followed(monkeypatch, [200.0, 40.0, 30.0, 29.5])

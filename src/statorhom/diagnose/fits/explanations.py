@@ -195,6 +195,14 @@ def by_degrees(hypothesis: _H, z: np.ndarray) -> Refit[_H] | None:
     return None if wide is None else refitted(replace(hypothesis, held=None), narrowed(wide, NARROWING[1:]).z)
 
 
+def best_of_each(found: Sequence[Explanation]) -> dict[str, Explanation]:
+    """The best explanation by every candidate, the best first."""
+    best: dict[str, Explanation] = {}
+    for e in sorted(found, key=lambda e: -e.log_evidence):
+        best.setdefault(e.label, e)
+    return best
+
+
 def effect_evidence(explanations: Sequence[Explanation]) -> dict[tuple[str, ...], float]:
     """ln Z of every combination of effects, its candidates summed."""
     found: dict[tuple[str, ...], list[float]] = {}

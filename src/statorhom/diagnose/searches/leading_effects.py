@@ -11,7 +11,7 @@ from statorhom.diagnose.evidence.decision import OVER_NOTHING, is_chance
 from statorhom.diagnose.evidence.held_out_name import renames_alone
 from statorhom.diagnose.evidence.repeated_null import with_repeated_null
 from statorhom.diagnose.fits.baseline import Baseline
-from statorhom.diagnose.fits.explanations import ADEQUATE, Explanation, nothing
+from statorhom.diagnose.fits.explanations import ADEQUATE, Explanation, best_of_each, nothing
 from statorhom.diagnose.located.scan import Scan, scan
 from statorhom.diagnose.searches.approach import Approach
 from statorhom.diagnose.searches.beside_typical import beside_typical_materials
@@ -126,17 +126,9 @@ def _of_one(base: Baseline, found: Scan, label: str | None, counts: dict[str, in
 
 def _with_more(leading: Leading, more: Sequence[Explanation]) -> Leading:
     """And explanations that were found beside other constants, the better one of every candidate."""
-    best = _best_of_each((*leading.found, *more))
+    best = best_of_each((*leading.found, *more))
     labels = {e.label for e in more if best[e.label] is e}
     return replace(leading, found=tuple(best.values()), elsewhere=leading.elsewhere | labels)
-
-
-def _best_of_each(found: Sequence[Explanation]) -> dict[str, Explanation]:
-    """The best explanation by every candidate, the best first."""
-    best: dict[str, Explanation] = {}
-    for e in sorted(found, key=lambda e: -e.log_evidence):
-        best.setdefault(e.label, e)
-    return best
 
 
 def _explains(best: Explanation, deeper: Baseline) -> bool:
@@ -150,6 +142,6 @@ def _explains(best: Explanation, deeper: Baseline) -> bool:
 def _joined(before: Leading, now: Leading) -> Leading:
     """What was found in both valleys, the better one of every candidate."""
     least = nothing(now.base.refit).log_evidence + OVER_NOTHING
-    best = _best_of_each((*before.found, *now.found))
+    best = best_of_each((*before.found, *now.found))
     elsewhere = frozenset(e.label for e in before.found if best[e.label] is e and e.log_evidence > least)
     return Leading(now.base, now.scan, now.unpaired, tuple(best.values()), elsewhere)

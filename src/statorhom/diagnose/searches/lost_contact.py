@@ -38,6 +38,7 @@ from statorhom.diagnose.searches.arc_search import (
     followed_near,
     varied,
 )
+from statorhom.diagnose.searches.earlier_steps import left_before
 from statorhom.diagnose.searches.fled_materials import typical_where_fled
 from statorhom.diagnose.searches.refit_starts import Start, first_start
 from statorhom.diagnose.searches.typical_materials import with_typical_materials
@@ -72,6 +73,7 @@ def with_lost_contact(
         # its few lines may be what a winding too soft explains; that others have no partner speaks against it
         seen = best.log_evidence > declared.log_evidence + OVER_NOTHING
         arcs = [c for c in arcs if seen and _lacks_partners(best.refit, c)]
+    arcs = [c for c in arcs if _may_rival(base, best, c)]
     if not arcs:
         return []
     is_open = not _is_settled(best, arcs)
@@ -82,6 +84,12 @@ def with_lost_contact(
     alike = [c for c in arcs if _looks_like(best, c)]
     own = [r for c in alike if (r := _beside_that_of(best.refit, base, c)) is not None]
     return [e for r in own if (e := explained(r, counts)).log_evidence > best.log_evidence - NEAR_RIVAL]
+
+
+def _may_rival(base: Refit, best: Explanation, arc: Candidate) -> bool:
+    """Whether the steps before the arc's leave so little that it may come near what leads."""
+    constants = best.refit.z[: base.hypothesis.constants]
+    return left_before(base, arc.stage, [constants]) < best.refit.cost + 2 * NEAR_RIVAL
 
 
 def _looks_like(best: Explanation, arc: Candidate) -> bool:

@@ -17,6 +17,7 @@ from statorhom.diagnose.fits.explanations import (
     ADEQUATE,
     WELL,
     Explanation,
+    best_of_each,
     explained,
     nothing,
     refitted,
@@ -30,6 +31,7 @@ from statorhom.diagnose.located.turned import at_fitting_angle
 from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.diagnose.searches.from_the_best import from_the_best
 from statorhom.diagnose.searches.mislabelled import worth_trying
+from statorhom.diagnose.searches.other_machines import on_other_machines
 from statorhom.diagnose.searches.own_machine import from_its_own_machine
 from statorhom.diagnose.searches.refit_starts import (
     CHEAP,
@@ -70,16 +72,31 @@ def single_effects(
     counts : effect → number of its candidates, over which its prior is spread.
     """
     favourites = found.worth_refitting(MOST, WORTH, nothing(base).adequacy < ADEQUATE)
-    tried = refits(base, in_order(base, found, favourites), counts)
+    near, dear = _until_the_last_cheap(list(in_order(base, found, favourites)))
+    tried = refits(base, near, counts)
+    if is_poor(base) and not any(e.adequacy_but_one > ADEQUATE for e in tried):
+        starts = [start_of(base, s.candidate, s.start) for s in found.of_every_candidate()]
+        tried += [explained(r, counts) for r in on_other_machines(base, starts, _beside_later_steps)]
+    tried = refits(base, dear, counts, known=list(best_of_each(tried).values()))
     explanations = from_the_best(base, found, tried, counts)
     explanations += new_names(base, discrete, counts, _worth(explanations))
     return sorted(explanations, key=lambda e: -e.log_evidence)
 
 
+def _until_the_last_cheap(trials: Sequence[Trial]) -> tuple[Sequence[Trial], Sequence[Trial]]:
+    """Trials up to the last one that costs little, and the others."""
+    end = max((i + 1 for i, trial in enumerate(trials) if price(trial) == CHEAP), default=0)
+    return trials[:end], trials[end:]
+
+
 def refits(
-    base: Refit, trials: Iterable[Trial], counts: dict[str, int], limit: float = np.inf
+    base: Refit,
+    trials: Iterable[Trial],
+    counts: dict[str, int],
+    limit: float = np.inf,
+    known: Sequence[Explanation] = (),
 ) -> list[Explanation]:
-    """The best refit of every trial that can still win.
+    """The best refit of every trial that can still win, and what is known already.
 
     Parameters
     ----------
@@ -88,8 +105,9 @@ def refits(
     counts : as for `single_effects`.
     limit : objective above which a refit matters to nobody; what costs little beside a poor model, and what has no
         place beside a good one, is followed whatever it reaches at once, for other valleys may be better.
+    known : explanations that the trials have to rival.
     """
-    explanations: list[Explanation] = []
+    explanations = list(known)
     waiting = list(trials)
     while waiting:
         # whatever the number of processes, so that answers do not depend on it
