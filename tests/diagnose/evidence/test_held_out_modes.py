@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from statorhom.diagnose.evidence.held_out_modes import GROSS, Error, _without_gross, lacked, left_out_errors
+from statorhom.diagnose.evidence.held_out_modes import lacked, left_out_errors
 from statorhom.diagnose.measured.feature import LOST, LOST_UNNAMED, Feature
 
 
@@ -51,24 +51,3 @@ def test_a_named_mode_that_only_one_model_has_is_lacked_by_the_other() -> None:
         Feature("frequency", "free", None, LOST_UNNAMED, 0.0, 1.0, lost=True, rows=f.rows) for f in lost
     ]
     assert not lacked(fit_of(*unnamed), fit_of(found))
-
-
-def errors_of(**rows: tuple[float, float]) -> dict[Any, tuple[Error, Error]]:
-    """By test, of the declared model and of an explanation, in units of their noise."""
-    return {((test, None), "mode"): (Error(b, 1.0, 0.0), Error(a, 1.0, 0.0)) for test, (b, a) in rows.items()}
-
-
-def test_one_mode_that_neither_model_has_near_tells_nothing() -> None:
-    """A pole by FRFs that was none: both missed it by so much that all other modes counted for nothing."""
-    told = errors_of(first=(5.0, 0.3), second=(4.0, 0.5))
-    gross = errors_of(spurious=(60.0, 70.0))
-    assert _without_gross(told | gross) == told
-    # two such modes are missing physics, and what one of the models has near is none
-    assert len(_without_gross(told | gross | errors_of(other=(20.0, 30.0)))) == 4
-    for both in ((60.0, 0.9 * GROSS), (0.9 * GROSS, 70.0)):
-        assert len(_without_gross(told | errors_of(spurious=both))) == 3
-
-
-def test_a_gross_mode_alone_is_kept() -> None:
-    gross = errors_of(spurious=(60.0, 70.0))
-    assert _without_gross(gross) == gross

@@ -53,9 +53,18 @@ def name(hypothesis: Any) -> str:
     return str(hypothesis.candidates[-1].name)
 
 
+class Predicting(Hypothesis):
+    """With features as they are told, kinds and residuals."""
+
+    told: tuple[tuple[str, float], ...] = (("frequency", 19.0), ("split", 3.0))
+
+    def features(self, *_: Any, **__: Any) -> Any:
+        return [SimpleNamespace(kind=kind, residual=residual) for kind, residual in self.told]
+
+
 def hypothesis_of(*candidates: Any) -> Any:
     stages = (SimpleNamespace(name="stack"), SimpleNamespace(name="wound"))
-    return Hypothesis(SimpleNamespace(stages=stages, constants=()), candidates)  # type: ignore[arg-type]
+    return Predicting(SimpleNamespace(stages=stages, constants=()), candidates)  # type: ignore[arg-type]
 
 
 def start(called: str, stage: str = "stack", *, corrects: bool = True) -> Start:
@@ -114,6 +123,15 @@ def test_only_dimensions_of_the_first_step_are_tried(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(module, "_of_first_step", of_first_step)
     assert found() == []
     assert tried == [(n, f) for n in ("length", "yoke") for f in FACTORS]
+
+
+@pytest.mark.parametrize(("kind", "tried"), [("frequency", True), ("density", True), ("split", False)])
+def test_what_parts_doublets_is_no_dimension(
+    machines: Machines, monkeypatch: pytest.MonkeyPatch, kind: str, tried: bool
+) -> None:
+    monkeypatch.setattr(Predicting, "told", ((kind, 19.0), ("frequency", 5.0), ("split", 8.0)))
+    machines.first, machines.whole = {("yoke", 0.92): 200.0}, {"yoke": 50.0}
+    assert bool(found()) == tried
 
 
 def test_bodies_that_are_no_rings_have_none() -> None:

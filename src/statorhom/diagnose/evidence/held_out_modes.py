@@ -33,8 +33,6 @@ WEIGHT = {
     "level_loss": 0.005,
     "density": 0.5,
 }
-# times the noise by which both models miss a mistaken line or a pole that is none; more of them are missing physics
-GROSS, MOST_GROSS = 5.0, 1
 DIFFERENT = 0.2  # of the noise: by how much errors differ at least where two models say different things
 Part = tuple[Group, str]  # of a group: `APART` or `REST`
 # percent: how far off a mode counts as that a model has not got, which predicts none of that name any nearer
@@ -81,7 +79,6 @@ def _predicted(
         rows |= {part: (before[part], after[part]) for part in before if part in after}
         rows |= {part: (_lacking(e), e) for part, e in after.items() if part in unknown}
         rows |= {part: (e, _lacking(e)) for part, e in before.items() if part in given_up}
-    rows = _without_gross(rows)
     apart = [part for part, both in rows.items() if _differ(*both)]
     told = sorted(apart or rows, key=str)
     lone = any(group in lacking[0] | lacking[1] for group, _ in told)
@@ -154,17 +151,6 @@ def noise_of(before: Error, after: Error) -> float:
 def _differ(before: Error, after: Error) -> bool:
     """Whether two predictions say different things: where they agree, neither can be the better one."""
     return abs(before.error - after.error) > DIFFERENT * noise_of(before, after)
-
-
-def _without_gross(rows: dict[Part, tuple[Error, Error]]) -> dict[Part, tuple[Error, Error]]:
-    """Without the one mode that neither predicts by far: it tells nothing of which of them is right."""
-    gross = {
-        group
-        for (group, _), both in rows.items()
-        if min(error.error for error in both) > GROSS * noise_of(*both)
-    }
-    left = {part: both for part, both in rows.items() if part[0] not in gross}
-    return left if len(gross) == MOST_GROSS and left else rows
 
 
 def _lacking(known: Error) -> Error:

@@ -23,6 +23,7 @@ from statorhom.errors import StatorhomError
 
 FACTORS = 0.92, 1.08  # times the typed dimension: from there a cubic reaches to about a sixth of it
 FOLLOWED = 2  # of what the first step alone likes best
+WHOLE, MOST = ("frequency", "density"), 0.5  # kinds of features that a dimension moves; part of the misfit
 
 
 def on_other_machines(base: Refit, starts: Iterable[Start], beside: Beside) -> list[Refit]:
@@ -34,7 +35,7 @@ def on_other_machines(base: Refit, starts: Iterable[Start], beside: Beside) -> l
     starts : of candidates, of which those count that correct a dimension of the first tested step.
     beside : more optima of a hypothesis, beside constants of later steps.
     """
-    if not isinstance(base.hypothesis, Hypothesis):
+    if not isinstance(base.hypothesis, Hypothesis) or not _keeps_symmetry(base):
         return []
     first = base.hypothesis.study.stages[0].name
     tasks = list(product((s for s in starts if _corrects(s, first)), FACTORS))
@@ -53,6 +54,13 @@ def on_other_machines(base: Refit, starts: Iterable[Start], beside: Beside) -> l
         if there is not None and explained(there, {}).adequacy > ADEQUATE:
             break
     return followed
+
+
+def _keeps_symmetry(base: Refit) -> bool:
+    """Whether most of what is left is of frequencies and weights: dimensions part no doublets."""
+    features = base.hypothesis.features(base.z)
+    whole = sum(f.residual**2 for f in features if f.kind in WHOLE)
+    return whole > MOST * sum(f.residual**2 for f in features)
 
 
 def _corrects(start: Start, stage: str) -> bool:
