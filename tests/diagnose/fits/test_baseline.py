@@ -38,8 +38,13 @@ def stage(_setup: Any, tests: Sequence[Any], *_: Any) -> Stage:
 
 
 def chosen(
-    monkeypatch: pytest.MonkeyPatch, *valleys: SimpleNamespace, tests: Sequence[Any] = (), kept: Any = None
+    monkeypatch: pytest.MonkeyPatch,
+    *valleys: SimpleNamespace,
+    tests: Sequence[Any] = (),
+    kept: Any = None,
+    known: Sequence[SimpleNamespace] = (),
 ) -> tuple[Any, list[str], int]:
+    """The chosen model, what was settled, and how many others are left; `known` in a basis that knows the valleys."""
     settled: list[str] = []
 
     def settle(_study: Any, one: SimpleNamespace, _settings: Any) -> SimpleNamespace:
@@ -59,6 +64,7 @@ def chosen(
         "_settled": settle,
         "nothing": lambda found: found,
         "_wide_objective": lambda found: found.own_wide,
+        "_in_a_basis_that_knows": lambda *_: list(known),
     }.items():
         monkeypatch.setattr(baseline, name, fake)
     settings = SimpleNamespace(seed=0, density=None)
@@ -113,6 +119,18 @@ def test_what_stays_best_as_valleys_narrow_is_followed_too(monkeypatch: pytest.M
     assert others == 2
     # where the widest is the narrowest too, nothing else is paid for
     assert chosen(monkeypatch, valley("a", 41.9, 0.0, 9.0), valley("b", 50.0, 0.9, 8.0))[1] == ["a"]
+
+
+def test_where_none_fits_a_basis_that_knows_the_valleys_tells_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By FRFs the right winding of a clean chain lacked its highest mode, for the basis was a tenth too stiff there."""
+    wide = [valley("a", 44.7, 1e-9, 300.0), valley("b", 47.0, 1e-4, 150.0), valley("right", 103.9, 0.9, 9.0)]
+    assert chosen(monkeypatch, *wide)[:2] == ("b", ["a", "b"])
+    right, first = valley("right", 13.6, 0.9, 9.0), valley("a", 44.7, 1e-9, 300.0)
+    assert chosen(monkeypatch, *wide, known=[right, first])[:2] == ("right", ["a", "b", "right"])
+    # where what was followed already stays ahead, and where something fits, nothing more is paid for
+    near, behind = valley("a", 45.0, 1e-9, 300.0), valley("behind", 48.0, 0.9, 9.0)
+    assert chosen(monkeypatch, *wide, known=[near, behind])[:2] == ("b", ["a", "b"])
+    assert chosen(monkeypatch, valley("fits", 10.0, 0.9, 9.0), known=[right])[:2] == ("fits", ["fits"])
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 
 import numpy as np
 
@@ -13,8 +14,10 @@ from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit, evaluated, refit
 from statorhom.diagnose.fits.valleys import (
     ALIKE,
+    DIFFERENT,
     FAR_BEHIND,
     MOST,
+    different,
     trials_around,
     wide_optima,
     with_other_sides,
@@ -22,7 +25,13 @@ from statorhom.diagnose.fits.valleys import (
 from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.diagnose.predicted.prediction import acted_materials, with_rules
 from statorhom.diagnose.stages.constants import held_by_lines, new_constants, study_constants
-from statorhom.diagnose.stages.stage_model import StageModel, mesh_error, stage_model, with_reference
+from statorhom.diagnose.stages.stage_model import (
+    StageModel,
+    mesh_error,
+    stage_model,
+    with_reference,
+    with_snapshots,
+)
 from statorhom.diagnose.stages.study_model import StudyModel
 from statorhom.errors import IdentificationError, StatorhomError
 from statorhom.geometry.tested_object import RingGeometry
@@ -38,6 +47,8 @@ SNAPSHOTS = 6  # materials that are solved per step
 SAME_HZ = 2e-4  # relative: a basis is good enough when a snapshot moves no frequency by more
 ROUNDS = 3
 FOLLOWED = 3  # valleys
+KNOWN = 8  # that a basis knows where none of those explains
+STIFF = 0.01  # relative: a basis that is off by less says the same of wide valleys
 CONVINCING = 0.1  # chance of a misfit above which no other valley is followed
 MAX_SCATTER_ORDER = 8
 
@@ -139,18 +150,47 @@ def _with_step(
     wide = wide_optima(Hypothesis(study), trials, most=MOST)
     wide = with_other_sides(Hypothesis(study), wide, places)
     followed = _worth_following(wide)
-    found: list[Refit[Hypothesis]] = []
-    for one in followed:
-        # what a coarse mesh is wrong by differs from valley to valley: none is the best before that is known
-        found.append(_settled(study, one, settings))
-        if nothing(found[-1]).adequacy > CONVINCING:
-            best = found[-1]
-            break
-    else:
-        best = min(found, key=_wide_objective)
+    found = _until_convincing(study, followed, settings)
+    if not _is_convincing(found[-1]):
+        # a basis of a few materials is too stiff elsewhere, and its band lacks the highest modes there
+        again = _worth_following(_in_a_basis_that_knows(study, wide) or wide)
+        ahead = takewhile(lambda w: all(np.linalg.norm(w.z - f.z) > DIFFERENT for f in followed), again)
+        found += _until_convincing(study, list(ahead), settings)
+    best = found[-1] if _is_convincing(found[-1]) else min(found, key=_wide_objective)
     begun = followed[: len(found)]
     others = (*(r.z for r in found if r is not best), *(w.z for w in wide[:FOLLOWED] if w not in begun))
     return best.hypothesis.study, best.z, others
+
+
+def _until_convincing(
+    study: StudyModel, valleys: Sequence[Refit[Hypothesis]], settings: Settings
+) -> list[Refit[Hypothesis]]:
+    """Optima in models of their own, one after the other until nothing is left to explain."""
+    found: list[Refit[Hypothesis]] = []
+    for one in valleys:
+        # what a coarse mesh is wrong by differs from valley to valley: none is the best before that is known
+        found.append(_settled(study, one, settings))
+        if _is_convincing(found[-1]):
+            break
+    return found
+
+
+def _is_convincing(found: Refit[Hypothesis]) -> bool:
+    return nothing(found).adequacy > CONVINCING
+
+
+def _in_a_basis_that_knows(study: StudyModel, wide: Sequence[Refit[Hypothesis]]) -> list[Refit[Hypothesis]]:
+    """The same optima where the last step's basis knows the best of them, the best first; none where it did before."""
+    *before, stage = study.stages
+    materials = [
+        acted_materials(study, stage, study.constants.values(w.z), study.effects) for w in wide[:KNOWN]
+    ]
+    knowing = with_snapshots(stage, materials)
+    if all(_moved(_frequencies(stage, m), _frequencies(knowing, m)) < STIFF for m in materials):
+        return []
+    hypothesis = Hypothesis(study.with_stages((*before, knowing)))
+    again = (widened(hypothesis, w.z) for w in wide[:KNOWN])
+    return different([r for r in again if r is not None])
 
 
 def _worth_following(wide: Sequence[Refit[Hypothesis]]) -> list[Refit[Hypothesis]]:
