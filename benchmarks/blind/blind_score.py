@@ -12,7 +12,7 @@ from blind_cases import BlindCase
 from blind_work import Work
 from scipy.stats import beta, binom
 
-from statorhom.physics.library import library
+from statorhom.physics.library import part_of
 
 # the parameter that says how much, and whether its error is one of the logarithm of a ratio to 1
 MAGNITUDES: Mapping[str, str] = {
@@ -75,14 +75,14 @@ def compared(truth: Mapping[str, Any], said: Mapping[str, Any], part: Sequence[s
     names = [e["effect"] for e in true]
     found = [e["effect"] for e in named]
     offered = found or [a["effect"] for a in said.get("alternatives", [])[:1]]
-    named_right = sorted(map(_part, found)) == sorted(map(_part, names))
+    named_right = sorted(map(part_of, found)) == sorted(map(part_of, names))
     row: dict[str, Any] = {
         "verdict": said["verdict"],
         "named": "+".join(found),
         "best": "+".join(offered),
         "effect_right": sorted(found) == sorted(names),
         "class_named": named_right,
-        "class_right": named_right or (bool(part) and sorted(part) == sorted({_part(n) for n in names})),
+        "class_right": named_right or (bool(part) and sorted(part) == sorted({part_of(n) for n in names})),
         "part": " and ".join(part),
         "verdict_right": said["verdict"] == truth["verdict"]
         and (not found or sorted(found) == sorted(names)),
@@ -96,12 +96,6 @@ def compared(truth: Mapping[str, Any], said: Mapping[str, Any], part: Sequence[s
     if held_out is not None and held_out["before_rms_percent"]:
         row["held_out_ratio"] = held_out["after_rms_percent"] / held_out["before_rms_percent"]
     return row
-
-
-def _part(effect: str) -> str:
-    """What of the machine or of the measurement an effect concerns; one from outside is like no other."""
-    known = library().get(effect)
-    return effect if known is None or known.part is None else known.part
 
 
 def angle_error_deg(true: Mapping[str, Any], said: Mapping[str, Any]) -> float | None:

@@ -33,6 +33,12 @@ def library() -> dict[str, Effect]:
     return found
 
 
+def part_of(effect: str) -> str:
+    """What of the machine or of the measurement an effect concerns; one that does not say is a part of its own."""
+    known = library().get(effect)
+    return effect if known is None or known.part is None else known.part
+
+
 def all_candidates(files: StudyFiles) -> tuple[Candidate, ...]:
     """Everything that the library can say of a study."""
     found = [candidate for effect in library().values() for candidate in candidates_of(effect, files)]

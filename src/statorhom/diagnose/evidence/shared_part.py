@@ -16,7 +16,7 @@ from scipy.special import logsumexp
 from statorhom.diagnose.evidence.decision import Evidence, decide
 from statorhom.diagnose.evidence.resampling import stability
 from statorhom.diagnose.fits.explanations import Explanation
-from statorhom.physics.library import library
+from statorhom.physics.library import part_of
 
 COMPARED = 2  # rivals in resamplings
 
@@ -36,7 +36,7 @@ def shared_part(
     seed : of resamplings.
     """
     own = _parts(found[0])
-    if any(_part(name) is None for name in found[0].effects):
+    if not own.isdisjoint(found[0].effects):  # an effect that is like no other
         return ()
     rivals = _of_other_parts(own, found)
     alone = replace(
@@ -62,10 +62,4 @@ def _total(found: Sequence[Explanation], parts: Parts) -> float:
 
 
 def _parts(e: Explanation) -> Parts:
-    """An effect that is like no other is a part of its own."""
-    return frozenset(_part(name) or name for name in e.effects)
-
-
-def _part(name: str) -> str | None:
-    effect = library().get(name)
-    return None if effect is None else effect.part
+    return frozenset(map(part_of, e.effects))

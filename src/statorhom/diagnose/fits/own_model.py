@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from statorhom.diagnose.contacts.joint_training import KnownArc
+from statorhom.diagnose.fits.baseline import SNAPSHOTS
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.valleys import trials_around
 from statorhom.diagnose.stages.constants import new_constants
@@ -24,8 +25,7 @@ from statorhom.physics.action import Action
 AROUND = 1 / 1.1, 1.1  # times its own arc, at which a contact that is lost over one is solved
 ITSELF = (1.0,)  # the same of a rival: each arc that is solved takes as long as all else
 NEAR = 0.015  # of ln(dimension): half of how far to either side of the drawn machine its cubic is solved
-
-SNAPSHOTS, SEED = 6, 0  # materials of a step that a machine drawn anew knows; of their draw
+SEED = 0  # of the draw of materials that a machine drawn anew knows beside its own
 
 
 def in_its_own_model(

@@ -12,7 +12,7 @@ from itertools import product
 
 import numpy as np
 
-from statorhom.diagnose.fits.explanations import ADEQUATE, blank, explained, narrowed, refitted, widened
+from statorhom.diagnose.fits.explanations import ADEQUATE, blank, explained, refitted, through_wide_valleys
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.own_model import on_its_own_machine
 from statorhom.diagnose.fits.refit import Refit
@@ -83,6 +83,5 @@ def _of_first_step(start: Start, factor: float) -> tuple[float, np.ndarray]:
         drawn = on_its_own_machine(alone, z)
     except StatorhomError:
         return np.inf, z
-    rough = widened(drawn, z)
-    found = None if rough is None else refitted(replace(drawn, held=None), narrowed(rough).z)
+    found = through_wide_valleys(drawn, z)
     return (np.inf, z) if found is None else (found.objective, found.z)

@@ -90,8 +90,8 @@ def dimension_shift(
 
 def scaled(study: StudyModel, name: str) -> float:
     """Part of a dimension that steps are parts of."""
-    number, scaled = tube_sizes(study.files).get(name.partition(".")[2], (1.0, 1.0))
-    return abs(scaled) / number
+    number, part = tube_sizes(study.files).get(name.partition(".")[2], (1.0, 1.0))
+    return abs(part) / number
 
 
 def _slopes(study: StudyModel, stage: StageModel, name: str) -> Mapping[ModeKey, float]:

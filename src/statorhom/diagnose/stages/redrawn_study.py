@@ -10,10 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
-from statorhom.diagnose.stages.dimension_response import changed_drawing
+from statorhom.diagnose.stages.dimension_response import changed_drawing, changed_geometry
 from statorhom.diagnose.stages.stage_model import StageModel, mesh_error, stage_model
 from statorhom.diagnose.stages.study_model import StudyModel
-from statorhom.geometry.tested_object import RingGeometry, object_geometry
 from statorhom.identify.stages.stage_setup import stage_setup
 from statorhom.model.affine import Materials
 from statorhom.physics.ring import ring_of
@@ -39,8 +38,7 @@ def redrawn(
     """
     typed = study.as_typed or study
     files = replace(typed.files, drawing=changed_drawing(typed, dimensions))
-    geometry = object_geometry(files.drawing, files.geometry_path)
-    assert isinstance(geometry, RingGeometry)
+    geometry = changed_geometry(typed, dimensions)
     begun = replace(
         typed, files=files, geometry=geometry, stages=(), dimensions=dimensions, as_typed=typed, _volumes={}
     )
