@@ -18,14 +18,14 @@ class Study:
     stages: tuple[Any, ...]
     files: Any
 
-    def with_stages(self, stages: tuple[Any, ...]) -> Study:
-        return Study(stages, self.files)
-
 
 @dataclass(frozen=True)
 class Declared:
     study: Study
     candidates: tuple[Any, ...] = ()
+
+    def with_stages(self, stages: tuple[Any, ...]) -> Declared:
+        return Declared(Study(stages, self.study.files))
 
 
 @pytest.fixture

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 import numpy as np
 from scipy.stats import qmc
@@ -32,7 +31,7 @@ def in_few_vectors(hypothesis: Hypothesis, points: Sequence[np.ndarray], most: i
     for stage in hypothesis.study.stages:
         samples = [s for z in points for s in _samples(hypothesis, stage, z)]
         stages.append(stage.condensed(samples, most) if samples else stage)
-    return replace(hypothesis, study=hypothesis.study.with_stages(tuple(stages)), held=None)
+    return hypothesis.with_stages(tuple(stages))
 
 
 def in_few_vectors_near(hypothesis: Hypothesis, z: np.ndarray, places: Sequence[int]) -> Hypothesis:

@@ -116,7 +116,11 @@ class Hypothesis(AnyHypothesis):
         tests : by name.
         """
         stages = [s.with_tests([tests.get(t.name, t) for t in s.tests]) for s in self.study.stages]
-        return replace(self, study=self.study.with_stages(tuple(stages)), held=None, missed=0.0)
+        return self.with_stages(tuple(stages))
+
+    def with_stages(self, stages: tuple[StageModel, ...]) -> Hypothesis:
+        """Of other models of the steps, or of some steps alone, to be paired anew."""
+        return replace(self, study=self.study.with_stages(stages), held=None)
 
     def paired(self, z: FloatArray) -> Hypothesis:
         """With the pairing held as it is at z: of near partners, or of far ones where these leave less.

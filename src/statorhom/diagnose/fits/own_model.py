@@ -59,7 +59,7 @@ def in_its_own_model(
         if not quick and drawn is hypothesis:
             near = near.with_error(mesh_error(stage.setup, near.ring, materials, stage.density))
         stages.append(near)
-    return replace(drawn, study=drawn.study.with_stages(tuple(stages)), held=None)
+    return drawn.with_stages(tuple(stages))
 
 
 def on_its_own_machine(hypothesis: Hypothesis, z: np.ndarray) -> Hypothesis:

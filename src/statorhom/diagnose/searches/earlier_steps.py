@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 
 import numpy as np
 
@@ -26,6 +25,6 @@ def left_before(base: Refit[Hypothesis], step: str, elsewhere: Iterable[np.ndarr
     before = tuple(s for s in study.stages if order.index(s.name) < order.index(step))
     if not before:
         return 0.0
-    alone = replace(blank(base.hypothesis, base.hypothesis.candidates), study=study.with_stages(before))
+    alone = blank(base.hypothesis, base.hypothesis.candidates).with_stages(before)
     found = (refitted(alone, z) for z in (base.z, *elsewhere))
     return min((r.objective for r in found if r is not None), default=0.0)

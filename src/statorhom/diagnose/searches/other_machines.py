@@ -7,7 +7,6 @@ first tested step alone says which machine it is: it has few constants, and its 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -69,8 +68,7 @@ def _corrects(start: Start, stage: str) -> bool:
 
 def _alone(hypothesis: Hypothesis) -> Hypothesis:
     """Of the first tested step alone."""
-    study = hypothesis.study
-    return replace(hypothesis, study=study.with_stages(study.stages[:1]), held=None)
+    return hypothesis.with_stages(hypothesis.study.stages[:1])
 
 
 def _of_first_step(start: Start, factor: float) -> tuple[float, np.ndarray]:
