@@ -12,8 +12,8 @@ from statorhom.diagnose.coupons.body_hypothesis import BodyHypothesis
 from statorhom.diagnose.coupons.body_stage import body_stage, with_reference
 from statorhom.diagnose.coupons.body_study import BodyStudy
 from statorhom.diagnose.features.mode_features import SCATTER_SD
-from statorhom.diagnose.fits.baseline import SAME_HZ, SNAPSHOTS
 from statorhom.diagnose.fits.explanations import Explanation
+from statorhom.diagnose.fits.new_step import SAME_HZ, SNAPSHOTS
 from statorhom.diagnose.fits.refit import Refit, evaluated, refit
 from statorhom.diagnose.fits.valleys import optima, trials_around
 from statorhom.diagnose.measured.measured_test import MeasuredTest

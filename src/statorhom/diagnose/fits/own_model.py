@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from statorhom.diagnose.contacts.joint_training import KnownArc
-from statorhom.diagnose.fits.baseline import SNAPSHOTS
 from statorhom.diagnose.fits.hypothesis import Hypothesis
+from statorhom.diagnose.fits.new_step import SNAPSHOTS
 from statorhom.diagnose.fits.valleys import trials_around
 from statorhom.diagnose.stages.constants import new_constants
 from statorhom.diagnose.stages.dimension_response import scaled, typed
