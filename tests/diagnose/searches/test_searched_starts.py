@@ -28,11 +28,19 @@ class Model:
         return np.full(7, -1.0), np.full(7, 1.0)
 
 
+@dataclass(frozen=True)
+class Constants:
+    items: list[Any]
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+
 def found(stage: str) -> Any:
     items = [SimpleNamespace(name=f"{name}:material.{k}", fixed=False) for name in NAMES for k in ("E", "G")]
     setups = [SimpleNamespace(name=name) for name in NAMES]
     files = SimpleNamespace(study=SimpleNamespace(stages=[SimpleNamespace(name=name) for name in NAMES]))
-    study = SimpleNamespace(stages=setups, files=files, constants=SimpleNamespace(items=items))
+    study = SimpleNamespace(stages=setups, files=files, constants=Constants(items))
     return SimpleNamespace(hypothesis=Model((SimpleNamespace(stage=stage),), study), z=np.zeros(7))
 
 
@@ -77,6 +85,23 @@ def test_what_an_effect_is_added_to_stays_until_an_optimum_is_sought(
     searched_starts(replace(model, candidates=(lump, shear)), np.zeros(9))
     # the stack's own two constants, and the last effect's magnitude: not the lump's two
     assert varied == [{0, 1, 8}]
+
+
+def test_supports_are_also_tried_beside_the_known_materials(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Springs of 2.3 GN/m² under a table's stack: eight supports with materials from everywhere led to no valley."""
+    tried: list[np.ndarray] = []
+    monkeypatch.setattr(module, "wide_optima", lambda _, points, *__: tried.extend(points) or [])
+    monkeypatch.setattr(
+        Model, "actions", lambda *_: [SimpleNamespace(supports={"clamped": 1})], raising=False
+    )
+    monkeypatch.setattr(Model, "limits", lambda _: (np.full(8, -5.0), np.full(8, 5.0)))
+    springs = SimpleNamespace(stage="stack", parameters=range(2))
+    known = np.full(8, 0.3)
+    searched_starts(replace(found("stack").hypothesis, candidates=(springs,)), known)
+    beside = {tuple(z[6:]) for z in tried if np.array_equal(z[:6], known[:6])}
+    elsewhere = {tuple(z[6:]) for z in tried if not np.array_equal(z[:6], known[:6])}
+    assert len(beside) >= module.ALONE
+    assert len(elsewhere) <= module.SUPPORTS
 
 
 def test_after_the_last_step_nothing_is_left_to_be_sought(monkeypatch: pytest.MonkeyPatch) -> None:

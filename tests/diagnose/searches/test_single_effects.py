@@ -221,3 +221,19 @@ def test_a_gross_row_that_one_effect_leaves_is_no_limit_to_what_costs_little() -
     explains: Any = Chances(refit, 0.3, 0.3)
     assert module._worth([leaves]) == module._worth([explains], whole=True) == 240.0 + module.NEAR
     assert module._worth([leaves], whole=True) == np.inf
+
+
+@pytest.mark.parametrize(("misfit", "limited"), [(600.0, False), (4500.0, True)])
+def test_the_one_row_that_is_left_of_thousands_is_an_error(
+    monkeypatch: pytest.MonkeyPatch, misfit: float, limited: bool
+) -> None:
+    """Springs of a clamp left a row of 148 of 4500, and all over the prior nothing else left less than 2000."""
+    monkeypatch.setattr(module, "price", lambda _: CHEAP)
+    monkeypatch.setattr(module, "is_poor", lambda _: True)
+    monkeypatch.setattr(module, "_has_place", lambda _: False)
+    monkeypatch.setattr(module, "nothing", lambda _: SimpleNamespace(adequacy=0.0))
+    leaves: Any = Chances(SimpleNamespace(objective=302.0), 1e-8, 0.96)
+    base: Any = SimpleNamespace(objective=misfit)
+    start: Any = None
+    limit = module._limit(base, (5.0, [start]), [leaves], np.inf)
+    assert limit == (302.0 + module.NEAR if limited else np.inf)

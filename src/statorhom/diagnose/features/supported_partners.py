@@ -78,11 +78,26 @@ def _mac(test: MeasuredTest, radial: np.ndarray, logs: np.ndarray) -> np.ndarray
     a /= np.maximum(np.linalg.norm(a, axis=1, keepdims=True), 1e-300)
     b = np.where(np.isfinite(test.shapes.radial[rows][0]), radial, 0.0).reshape(len(radial), -1)
     b /= np.maximum(np.linalg.norm(b, axis=1, keepdims=True), 1e-300)
-    found = np.empty((len(a), len(b)))
-    for j, log_f in enumerate(logs):
-        span, size, _ = np.linalg.svd(b[np.abs(logs - log_f) < MIXED].T, full_matrices=False)
-        found[:, j] = np.sum((a @ span[:, size > ALIKE * size[0]]) ** 2, axis=1)
-    return np.asarray((found + (a @ b.T) ** 2) / 2)
+    alike, among = a @ b.T, b @ b.T
+    near = np.abs(logs[:, None] - logs) < MIXED
+    found = alike**2
+    for j in np.flatnonzero(near.sum(axis=1) > 1):
+        found[:, j] = (found[:, j] + _of_span(alike, among, near[j])) / 2
+    return np.asarray(found)
+
+
+def _of_span(alike: np.ndarray, among: np.ndarray, near: np.ndarray) -> np.ndarray:
+    """MAC (measured,) with the span of some shapes, of which their products tell all.
+
+    Parameters
+    ----------
+    alike : (measured, simulated) products of unit shapes.
+    among : (simulated, simulated) the same.
+    near : (simulated,) which span it.
+    """
+    squares, axes = np.linalg.eigh(among[np.ix_(near, near)])
+    told = squares > ALIKE**2 * squares[-1]
+    return np.asarray(np.sum((alike[:, near] @ axes[:, told]) ** 2 / squares[told], axis=1))
 
 
 def supported_features(

@@ -15,6 +15,7 @@ from statorhom.errors import IdentificationError
 
 REFITTED = 6  # points that are followed in wide valleys
 SUPPORTS = 8  # that are tried, each with many materials
+ALONE = 24  # that are tried beside what free tests have told of the materials
 
 
 def searched_starts(
@@ -37,9 +38,10 @@ def searched_starts(
         return []
     low, high = hypothesis.limits()
     # what the effect is added to is known, and where it breaks the symmetry another place of it costs a solution
-    points = trials_around(z, [*places, *range(len(z) - len(candidate.parameters), len(z))], seed)
+    own = range(len(z) - len(candidate.parameters), len(z))
+    points = trials_around(z, [*places, *own], seed)
     if any(action.supports for action in hypothesis.actions(z)):
-        points = _with_few_supports(points, len(constants))
+        points = [*_with_few_supports(points, len(constants)), *trials_around(z, own, seed)[:ALONE]]
     try:
         quick = replace(hypothesis, trained=False)
         return wide_optima(quick, [np.clip(point, low, high) for point in points], most)

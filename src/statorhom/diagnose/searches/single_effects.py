@@ -54,6 +54,7 @@ from statorhom.physics.candidate import Candidate
 MOST = 12  # candidates that are refitted
 RELABELLED = 4
 TOGETHER = 4  # refits that know of the same others
+NEARLY = 0.1  # of the declared model's objective, that is left where a cause has been found
 MOSTLY = 0.5  # of the declared model's objective, below which an explanation leads
 PROMISING = 0.6  # of the same: what explains as much without local fields is tried with them
 NEAR = 60.0  # of the objective: what does not come so near to an adequate explanation is given up
@@ -135,7 +136,8 @@ def _limit(base: Refit, trial: Trial, explanations: Sequence[Explanation], limit
     dear, placed = price(trial) > CHEAP, _has_place(starts[0])
     limited = dear if is_poor(base) else placed
     # what costs little may explain the one row too that another leaves: that one is no limit to it
-    bar = _worth(explanations) if dear or placed else _worth(explanations, whole=True)
+    whole = not (dear or placed or _explains_nearly_all(base, explanations))
+    bar = _worth(explanations, whole=whole)
     if np.isfinite(bar):
         bar = min(bar, _least_of_a_rival(base))
     worth = min(bar, limit if limited else np.inf)
@@ -183,6 +185,12 @@ def _least_of_a_rival(base: Refit) -> float:
     """Objective above which an explanation is no rival even of what leads by as little as is asked for."""
     least = least_over_nothing(nothing(base).adequacy)
     return base.objective - 2 * (least - OVER_OTHERS)
+
+
+def _explains_nearly_all(base: Refit, explanations: Sequence[Explanation]) -> bool:
+    """Whether what leads leaves hardly anything of a poor model's misfit: the one row that it leaves is an error."""
+    best = min((e.refit.objective for e in explanations), default=np.inf)
+    return best < NEARLY * base.objective
 
 
 def _leading(base: Refit, explanations: Sequence[Explanation]) -> float:
