@@ -124,6 +124,20 @@ def test_typical_materials_are_asked_again_where_the_declared_model_has_moved(
         assert found.chance(soft) == pytest.approx(np.exp(-10.0))
 
 
+@pytest.mark.parametrize("more", [False, True])
+def test_what_typical_materials_find_then_may_lead_to_a_still_deeper_valley(
+    monkeypatch: pytest.MonkeyPatch, more: bool
+) -> None:
+    """A clean chain's declared model stayed at -255 where effects that may as well be absent stood at -198."""
+
+    def typical(fit: Any, *_: Any) -> list[Any]:
+        return [explanation("slow", -198.0)] if more and fit.log_evidence == -255.0 else []
+
+    steps = [(base(left), [explanation("lump", left - 1.0)]) for left in (-330.0, -270.0, -255.0, -199.0)]
+    found = led(monkeypatch, 0.5, *steps, typical=typical)
+    assert found.base.free.log_evidence == (-199.0 if more else -255.0)
+
+
 def test_what_the_lead_is_taken_for_is_sought_behind_it(monkeypatch: pytest.MonkeyPatch) -> None:
     soft, slow = explanation("soft", -40.0), explanation("slow", -50.0)
     asked: list[Any] = []

@@ -79,19 +79,24 @@ def leading_effects(
     counts : effect → number of its candidates, over which its prior is spread.
     seed : of the scan's null distribution.
     """
+
+    def beside_typical(leading: Leading) -> list[Explanation]:
+        return beside_typical_materials(leading.base.free, leading.found, candidates, counts)
+
+    def in_deeper_valleys(leading: Leading, times: int) -> Leading:
+        for _ in range(times):
+            deeper = approach.declared_again(leading.base, leading.found)
+            if deeper is None:
+                break
+            only = leading.found[0].label if _explains(leading.found[0], deeper) else None
+            leading = _joined(leading, _beside(deeper, candidates, counts, seed, only=only))
+        return leading
+
     leading = _beside(base, candidates, counts, seed)
-    found = beside_typical_materials(leading.base.free, leading.found, candidates, counts)
-    leading = _with_more(leading, found)
-    for _ in range(AGAIN):
-        deeper = approach.declared_again(leading.base, leading.found)
-        if deeper is None:
-            break
-        only = leading.found[0].label if _explains(leading.found[0], deeper) else None
-        leading = _joined(leading, _beside(deeper, candidates, counts, seed, only=only))
-    if leading.base is not base:
-        # a deeper valley may be one to which the declared model has fled, too
-        found = beside_typical_materials(leading.base.free, leading.found, candidates, counts)
-        leading = _with_more(leading, found)
+    leading = in_deeper_valleys(_with_more(leading, beside_typical(leading)), AGAIN)
+    # a deeper valley may be one to which the declared model has fled, too
+    if leading.base is not base and (found := beside_typical(leading)):
+        leading = in_deeper_valleys(_with_more(leading, found), 1)
     leading = _with_more(leading, sought_thoroughly(leading.base.free, leading.found, candidates, counts))
     leading = _with_more(leading, look_alikes(leading.base.free, leading.found, candidates, counts))
     # what no signature beside the declared winding shows
