@@ -18,6 +18,7 @@ from statorhom.diagnose.evidence.decision import (
     Verdict,
     decide,
     differs_from_absence,
+    least_over_nothing,
     others,
     within_bounds,
 )
@@ -36,6 +37,7 @@ from statorhom.diagnose.fits.explanations import (
     WELL,
     Explanation,
     effect_evidence,
+    effects_over,
     nothing,
 )
 from statorhom.diagnose.located.place_rows import summaries
@@ -151,8 +153,9 @@ def _find(
     progress(1)
     none = nothing(leading.base.refit)
     best = found[0] if found else none
-    if found and not leading.by_chance(best):
-        # reported numbers come from the explanation's own model, comparisons from the common one
+    over = effects_over(none, best, found)
+    if found and not leading.by_chance(best) and over > least_over_nothing(none.adequacy):
+        # reported numbers come from the own model of what may be named, comparisons from the common one
         best = replace(approach.final(best), log_evidence=best.log_evidence, compared=best.compared)
     evidence = _evidence(leading, best, none, found, settings.seed)
     evidence = replace(evidence, confirmed=confirmed or not best.is_pair)
@@ -216,9 +219,9 @@ def _evidence(
 ) -> Evidence:
     rest = others(best, found)
     totals = effect_evidence(found)
-    own = totals.get(best.effects, best.log_evidence)
+    over = effects_over(none, best, found)
+    own = over + none.log_evidence
     next_best = max((totals[e.effects] for e in rest), default=-np.inf)
-    over = own - none.log_evidence
     unseen: HeldOut | None = None
     if best.candidates and over > 0:
         unseen = (held_out_names if renames_alone(best) else unseen_modes)(leading.base.refit, best)

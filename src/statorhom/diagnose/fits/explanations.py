@@ -209,3 +209,8 @@ def effect_evidence(explanations: Sequence[Explanation]) -> dict[tuple[str, ...]
     for e in explanations:
         found.setdefault(e.effects, []).append(e.log_evidence)
     return {effects: float(logsumexp(values)) for effects, values in found.items()}
+
+
+def effects_over(none: Explanation, best: Explanation, found: Sequence[Explanation]) -> float:
+    """Log evidence of an explanation's effects over the declared model, all candidates of them together."""
+    return effect_evidence(found).get(best.effects, best.log_evidence) - none.log_evidence
