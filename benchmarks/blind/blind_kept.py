@@ -14,6 +14,7 @@ from statorhom.study.atomic import write_text
 TABLE = "cases.csv"
 REFUSED = "refused.txt"
 RATIO = "held-out ratio, "
+FAULTS, WORDS = ("fault", "commit"), ("named", "best", "effect", "part")
 
 
 def write_rows(rows: Sequence[Mapping[str, Any]], folder: Path) -> None:
@@ -41,18 +42,18 @@ def kept_rows(folder: Path) -> dict[str, dict[str, Any]]:
 
 
 def _row(line: dict[Any, Any]) -> dict[str, Any]:
-    known = {str(k): v for k, v in line.items() if not pd.isna(v)}
+    # an empty cell is what was not named
+    words = FAULTS if line["verdict"] == "failed" else (*FAULTS, *WORDS)
+    known = {str(k): "" if pd.isna(v) else v for k, v in line.items() if k in words or not pd.isna(v)}
     ratios = {k.removeprefix(RATIO): v for k, v in known.items() if k.startswith(RATIO)}
     row = {k: v for k, v in known.items() if k not in METHODS and not k.startswith(RATIO)}
-    row |= {"fault": row.get("fault", ""), "commit": row.get("commit", "")}
+    row |= {word: "" for word in words if word not in row}
     if row["verdict"] == "failed":
         return row
-    # an empty cell is what was not named
-    words = {k: row.get(k, "") for k in ("named", "best", "effect", "part")}
     answers = {method: known.get(method, "") for method in METHODS}
     # answers of before there were parts tell a class by a name alone
     row.setdefault("class_named", row["class_right"])
-    return row | words | {"answers": answers, "held_out": ratios}
+    return row | {"answers": answers, "held_out": ratios}
 
 
 def write_refused(messages: Sequence[str], folder: Path) -> None:
