@@ -57,6 +57,21 @@ def with_step(
     """One more step: its constants from the best of many starts; the other optima.
 
     The model reaches as high as any test: a clamped one may have lines above all that the free one shows.
+
+    Parameters
+    ----------
+    study, z : the declared model of the steps before, and all constants.
+    setup, tests : the step, and what was measured of it.
+    settings : seed of the draws, and the mesh.
+
+    Returns
+    -------
+    The model with the step, its constants, and those of other optima.
+
+    Raises
+    ------
+    IdentificationError
+        If no material of the step is possible, or no start could be fitted.
     """
     places = new_constants(study.constants, setup.keys.name)
     trials = trials_around(z, places, settings.seed)
@@ -68,7 +83,7 @@ def with_step(
     wide = with_other_sides(Hypothesis(study), wide, places)
     found = _until_convincing(study, wide[:1], settings)
     if not _is_convincing(found[-1]):
-        wide = different([*wide, *_of_more_draws(study, z, settings)])
+        wide = different([*wide, *_of_more_draws(study, z, places, settings)])
         # a basis of a few materials is too stiff elsewhere, and its band lacks the highest modes there
         wide = _in_a_basis_that_knows(study, wide) or wide
         ahead = [w for w in _worth_following(wide) if _is_new(w, found, places)]
@@ -78,9 +93,10 @@ def with_step(
     return best.hypothesis.study, best.z, (*(r.z for r in found if r is not best), *left)
 
 
-def _of_more_draws(study: StudyModel, z: np.ndarray, settings: Settings) -> list[Refit[Hypothesis]]:
+def _of_more_draws(
+    study: StudyModel, z: np.ndarray, places: Sequence[int], settings: Settings
+) -> list[Refit[Hypothesis]]:
     """Optima in wide valleys from other points than the first ones, between which a valley may lie."""
-    places = new_constants(study.constants, study.stages[-1].name)
     draws = (trials_around(z, places, settings.seed + number) for number in range(1, 1 + DRAWS))
     return [w for trials in draws for w in wide_optima(Hypothesis(study), trials, most=MOST)]
 
