@@ -157,7 +157,7 @@ def _find(
     if found and not leading.by_chance(best) and over > least_over_nothing(none.adequacy):
         # reported numbers come from the own model of what may be named, comparisons from the common one
         best = replace(approach.final(best), log_evidence=best.log_evidence, compared=best.compared)
-    evidence = _evidence(leading, best, none, found, settings.seed)
+    evidence = _evidence(leading, best, none, found, over, settings.seed)
     evidence = replace(evidence, confirmed=confirmed or not best.is_pair)
     verdict = decide(evidence)
     part = shared_part(evidence, found, none, settings.seed) if verdict == "ambiguous" else ()
@@ -215,11 +215,15 @@ def _is_open(found: Sequence[Explanation]) -> bool:
 
 
 def _evidence(
-    leading: Leading, best: Explanation, none: Explanation, found: Sequence[Explanation], seed: int
+    leading: Leading,
+    best: Explanation,
+    none: Explanation,
+    found: Sequence[Explanation],
+    over: float,
+    seed: int,
 ) -> Evidence:
     rest = others(best, found)
     totals = effect_evidence(found)
-    over = effects_over(none, best, found)
     own = over + none.log_evidence
     next_best = max((totals[e.effects] for e in rest), default=-np.inf)
     unseen: HeldOut | None = None

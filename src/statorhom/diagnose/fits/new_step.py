@@ -15,12 +15,13 @@ from statorhom.diagnose.fits.valleys import (
     FAR_BEHIND,
     MOST,
     different,
+    is_apart,
     trials_around,
     wide_optima,
     with_other_sides,
 )
 from statorhom.diagnose.measured.measured_test import MeasuredTest
-from statorhom.diagnose.predicted.prediction import acted_materials, with_rules
+from statorhom.diagnose.predicted.prediction import with_rules
 from statorhom.diagnose.stages.constants import new_constants
 from statorhom.diagnose.stages.stage_model import (
     StageModel,
@@ -103,8 +104,8 @@ def _of_more_draws(
 
 def _is_new(one: Refit[Hypothesis], found: Sequence[Refit[Hypothesis]], places: Sequence[int]) -> bool:
     """Whether it lies near no optimum; one that was followed from near it and fled may have had too poor a basis."""
-    apart = (np.linalg.norm((one.z - other.z)[list(places)]) for other in found)
-    return all(distance > DIFFERENT for distance in apart)
+    own = list(places)
+    return is_apart(one.z[own], (other.z[own] for other in found), DIFFERENT)
 
 
 def _until_convincing(
@@ -127,9 +128,7 @@ def _is_convincing(found: Refit[Hypothesis]) -> bool:
 def _in_a_basis_that_knows(study: StudyModel, wide: Sequence[Refit[Hypothesis]]) -> list[Refit[Hypothesis]]:
     """The same optima where the last step's basis knows the best of them, the best first; none where it did before."""
     *before, stage = study.stages
-    materials = [
-        acted_materials(study, stage, study.constants.values(w.z), study.effects) for w in wide[:KNOWN]
-    ]
+    materials = [w.hypothesis.materials(stage, w.z) for w in wide[:KNOWN]]
     knowing = with_snapshots(stage, materials)
     if all(_moved(_frequencies(stage, m), _frequencies(knowing, m)) < STIFF for m in materials):
         return []
@@ -161,7 +160,7 @@ def _settled(study: StudyModel, found: Refit[Hypothesis], settings: Settings) ->
     """Refitted with a basis and mesh factors of its own, until the basis moves no frequency any more."""
     for number in range(ROUNDS):
         stage = study.stages[-1]
-        materials = acted_materials(study, stage, study.constants.values(found.z), study.effects)
+        materials = found.hypothesis.materials(stage, found.z)
         before = _frequencies(stage, materials)
         better = with_reference(stage, materials)
         moved = _moved(before, _frequencies(better, materials))

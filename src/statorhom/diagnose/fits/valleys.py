@@ -168,15 +168,20 @@ def different(
     """Optima that are no neighbours of better ones, the best first; `where` tells the coordinates that count."""
     chosen: list[Refit[_H]] = []
     for r in sorted(found, key=lambda r: r.objective):
-        if all(np.linalg.norm(where(r) - where(other)) > DIFFERENT for other in chosen):
+        if is_apart(where(r), map(where, chosen), DIFFERENT):
             chosen.append(r)
     return chosen
+
+
+def is_apart(z: np.ndarray, others: Iterable[np.ndarray], least: float) -> bool:
+    """Whether a point is no neighbour of others, in prior standard deviations."""
+    return all(np.linalg.norm(z - other) > least for other in others)
 
 
 def apart(points: Sequence[np.ndarray], most: int) -> list[np.ndarray]:
     """The first points that are no neighbours of better ones."""
     chosen: list[np.ndarray] = []
     for z in points:
-        if len(chosen) < most and all(np.linalg.norm(z - other) > APART for other in chosen):
+        if len(chosen) < most and is_apart(z, chosen, APART):
             chosen.append(z)
     return chosen

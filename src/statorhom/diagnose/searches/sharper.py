@@ -24,7 +24,7 @@ from statorhom.diagnose.fits.explanations import (
 )
 from statorhom.diagnose.fits.own_model import AROUND, ITSELF, in_its_own_model
 from statorhom.diagnose.fits.refit import Refit, refit, refit_objective
-from statorhom.diagnose.fits.valleys import APART, FAR_BEHIND, SETTLED, best_of_sides
+from statorhom.diagnose.fits.valleys import APART, FAR_BEHIND, SETTLED, best_of_sides, is_apart
 from statorhom.diagnose.located.mirrored import at_fitting_height
 from statorhom.diagnose.searches.single_effects import is_a_field
 from statorhom.errors import StatorhomError
@@ -192,7 +192,7 @@ def _deepest(own: Explanation, valleys: Sequence[np.ndarray], counts: dict[str, 
 def _is_news(rough: Refit, tried: Sequence[Refit]) -> bool:
     """Whether an optimum in wide valleys is none of those that were followed already, and not far behind them."""
     least = min((other.objective for other in tried), default=np.inf) + FAR_BEHIND
-    return rough.objective < least and all(np.linalg.norm(rough.z - o.z) > APART for o in tried)
+    return rough.objective < least and is_apart(rough.z, (o.z for o in tried), APART)
 
 
 def _on_other_sides(optimum: Refit) -> Refit:

@@ -189,14 +189,18 @@ def _least_of_a_rival(base: Refit) -> float:
 
 def _explains_nearly_all(base: Refit, explanations: Sequence[Explanation]) -> bool:
     """Whether what leads leaves hardly anything of a poor model's misfit: the one row that it leaves is an error."""
-    best = min((e.refit.objective for e in explanations), default=np.inf)
-    return best < NEARLY * base.objective
+    return _least(explanations) < NEARLY * base.objective
 
 
 def _leading(base: Refit, explanations: Sequence[Explanation]) -> float:
     """The same for what is dear, where a cheap effect explains most of the misfit: it leads, adequate or not."""
-    best = min((e.refit.objective for e in explanations), default=np.inf)
+    best = _least(explanations)
     return best + NEAR if best < MOSTLY * base.objective else np.inf
+
+
+def _least(explanations: Sequence[Explanation]) -> float:
+    """Objective of what leaves least."""
+    return min((e.refit.objective for e in explanations), default=np.inf)
 
 
 def _best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: float = np.inf) -> Refit | None:
