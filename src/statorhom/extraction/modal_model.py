@@ -210,13 +210,26 @@ def weighted_products(weights: FloatArray, a: ComplexArray, b: ComplexArray) -> 
     return (weights @ pairs.real.T + 1j * (weights @ pairs.imag.T)).reshape(shape)
 
 
+def weighted_gram(weights: FloatArray, a: ComplexArray) -> ComplexArray:
+    """Σ w a* a over the data, shape (points, columns, columns): as `weighted_products`, but half of it is computed."""
+    if len(a) > 1 or len(weights) < _MANY_POINTS:
+        return weighted_products(weights, a, a)
+    i, j = np.triu_indices(a.shape[1])
+    pairs = a[0].conj()[i] * a[0][j]
+    upper = weights @ pairs.real.T + 1j * (weights @ pairs.imag.T)
+    gram = np.empty((len(weights), a.shape[1], a.shape[1]), dtype=complex)
+    gram[:, j, i] = upper.conj()
+    gram[:, i, j] = upper
+    return gram
+
+
 def solve_linear(window: Window, phi: ComplexArray) -> Linear:
     """Least squares over the columns at every point."""
     points = len(window.values)
     flat = phi.reshape(len(phi), phi.shape[1], -1)
     weights = window.weights.reshape(points, -1)
     values = window.values.reshape(points, -1)
-    gram = weighted_products(weights, flat, flat)
+    gram = weighted_gram(weights, flat)
     right = projected(flat, weights * values)
     diagonal = np.sqrt(np.maximum(np.einsum("kcc->kc", gram).real, np.finfo(float).tiny))
     gram = gram / (diagonal[:, :, None] * diagonal[:, None, :])

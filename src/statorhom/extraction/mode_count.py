@@ -18,6 +18,9 @@ FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
 _MOST_NEW = 5  # modes per window and sweep
+# Modes that overlap are judged together: beside what is missing, each alone looks like noise.
+_AHEAD = 8  # modes that are tried before any is worth its price …
+_FALLING = 0.8  # … while one more leaves at most this part of the misfit
 _BESIDE = 2.0  # half-power bandwidths within which a doublet's other mode may lie that no stable pole shows
 _HOPELESS = 0.3  # of the price: a candidate that promises less before its pole is optimized is left
 _OUTSIDE = 0.5  # of a window's width that a pole may lie beyond it
@@ -98,14 +101,17 @@ def grow(
 def _larger(
     window: Window, fit: WindowFit, neighbours: Modes, stable: ComplexArray, reach: tuple[float, float]
 ) -> WindowFit | None:
-    """Fit with one mode more, or two where one alone leaves too much misfit to be judged; None for none."""
+    """Fit with one mode more, or several where fewer leave too much misfit to be judged; None for none."""
     smaller = fit
-    for added in (1, 2):
+    for added in range(1, _AHEAD + 1):
         larger = _with_candidate(window, smaller, neighbours, stable, reach)
         if larger is None:
             return None
         if 2 * (fit.chi2 - larger.chi2) / dispersion(window, larger) >= added * price(window):
             return larger
+        # a mode more explains a good part of what is left as long as some are missing
+        if added > 1 and larger.chi2 > _FALLING * smaller.chi2:
+            return None
         smaller = larger
     return None
 

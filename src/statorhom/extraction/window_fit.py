@@ -24,6 +24,7 @@ from statorhom.extraction.modal_model import (
     projected,
     solve_linear,
     unit_part,
+    weighted_gram,
     weighted_products,
 )
 
@@ -131,7 +132,7 @@ def reduced_terms(
     score = amplitude.conj() * projected(flat_d, weights * residual)
     d_phi = weighted_products(weights, flat_d, flat) / linear.norms[:, None, :]
     moved = linear.inverse @ d_phi.conj().transpose(0, 2, 1)  # (points, columns, unknowns)
-    inner = weighted_products(weights, flat_d, flat_d) - d_phi @ moved
+    inner = weighted_gram(weights, flat_d) - d_phi @ moved
     inner = amplitude.conj()[:, :, None] * inner * amplitude[:, None, :]
     return score, inner, -moved * amplitude[:, None, :]
 

@@ -1,0 +1,48 @@
+"""How many modes are tried together before any is worth its price."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from statorhom.extraction import mode_count
+
+
+def added(monkeypatch: pytest.MonkeyPatch, misfits: Sequence[float]) -> tuple[int | None, int]:
+    """Modes that one step adds, None for none, and how many were tried.
+
+    Parameters
+    ----------
+    misfits : of fits with one mode more each, the first one with none.
+    """
+    fits = [SimpleNamespace(chi2=misfit, number=number) for number, misfit in enumerate(misfits)]
+    waiting = iter(fits[1:])
+    monkeypatch.setattr(mode_count, "_with_candidate", lambda *_: next(waiting, None))
+    # what the noise does not explain counts as noise, smooth along ten lines
+    monkeypatch.setattr(mode_count, "dispersion", lambda _, fit: 10.0 * fit.chi2)
+    monkeypatch.setattr(mode_count, "price", lambda _: 1.0)
+    window: Any = None
+    found: Any = mode_count._larger(window, fits[0], window, np.zeros(0), (0.0, 0.0))  # type: ignore[arg-type]
+    return None if found is None else found.number, len(fits) - 1 - len(list(waiting))
+
+
+def test_modes_that_overlap_are_judged_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of fourteen lines of a wound stator six were found; with four more at once the noise explains the rest."""
+    assert added(monkeypatch, (480.0, 311.0, 187.0, 83.0, 2.9)) == (4, 4)
+
+
+def test_nothing_is_added_where_modes_explain_little(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert added(monkeypatch, (480.0, 300.0, 250.0, 20.0)) == (None, 2)
+    assert added(monkeypatch, (480.0, 300.0)) == (None, 1)
+
+
+def test_one_that_is_worth_its_price_is_enough(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert added(monkeypatch, (480.0, 10.0, 1.0)) == (1, 1)
+
+
+def test_there_is_an_end_to_what_is_tried(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert added(monkeypatch, [0.79**n for n in range(20)]) == (None, mode_count._AHEAD)
