@@ -32,6 +32,20 @@ def test_a_label_outweighs_a_nearer_frequency():
     assert indices(pair([Measured(1700.0, 2, 0)], STACK, 0.05)) == [(0, 0)]
 
 
+def test_a_mode_of_several_names_takes_the_one_that_leaves_nothing_over():
+    # the first may be called (2, 2) too, and lies nearer to that: the second can be nothing else
+    simulated = [Simulated(6020.0, 2, 1), Simulated(6093.0, 2, 2)]
+    measured = [Measured(5964.0, 2, 1), Measured(6004.0, 2, 2)]
+    assert indices(pair(measured, simulated, 0.05, also=[[2, 3], []])) == [(0, 0), (1, 1)]
+    assert indices(pair(measured[1:], simulated[:1], 0.05, also=[[2, 3]])) == [(0, 0)]
+    assert indices(pair(measured[1:], simulated[:1], 0.05)) == []
+
+
+def test_both_modes_of_a_doublet_are_called_alike():
+    measured = [Measured(5964.0, 2, 1), Measured(5970.0, 2, 2)]
+    assert indices(pair(measured, [Simulated(5966.0, 2, 1)], 0.05, also=[[2]])) == [(0, 0)]
+
+
 def test_half_a_label_leaves_the_other_half_open():
     assert indices(pair([Measured(1690.0, 2, None)], STACK, 0.02)) == [(0, 1)]
     assert indices(pair([Measured(1650.0, None, 0)], STACK, 0.05)) == [(0, 0)]

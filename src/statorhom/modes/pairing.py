@@ -52,6 +52,7 @@ def pair(
     labelled_gate: float = 12.0,
     doublet_split: float = DOUBLET_SPLIT,
     with_doubt: bool = True,
+    also: Sequence[Sequence[int | None]] = (),
 ) -> Pairing:
     """Pair modes so that the sum of the costs is the least (an optimal assignment).
 
@@ -74,6 +75,9 @@ def pair(
         Greatest difference of the logarithms of a doublet's two frequencies.
     with_doubt : bool
         False saves most of the time; the doubts are then NaN.
+    also : sequence of sequences of int
+        Other counts of node planes that a simulated mode may be called by, one sequence for each mode; empty where
+        none has any. Both modes of a doublet are called alike.
 
     Raises
     ------
@@ -81,7 +85,13 @@ def pair(
         When a measured frequency, `log_sd` or a gate is not finite and positive.
     """
     cost = pairing_cost(
-        measured, simulated, log_sd, gate=gate, labelled_gate=labelled_gate, doublet_split=doublet_split
+        measured,
+        simulated,
+        log_sd,
+        gate=gate,
+        labelled_gate=labelled_gate,
+        doublet_split=doublet_split,
+        also=also,
     )
     best, total = _assign(cost)
     doubts = _doubts(cost, best, total) if with_doubt else np.full(len(best), np.nan)

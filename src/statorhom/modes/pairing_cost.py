@@ -64,6 +64,7 @@ def pairing_cost(
     gate: float,
     labelled_gate: float,
     doublet_split: float,
+    also: Sequence[Sequence[int | None]] = (),
 ) -> PairingCost:
     """Costs ((ln f_measured − ln f_simulated) / log_sd)² − 2 ln visibility of the pairs whose labels agree.
 
@@ -79,14 +80,26 @@ def pairing_cost(
     cost = ((log_measured[:, None] - modes.log_frequency) / sd[:, None]) ** 2 + modes.visibility_cost
     allowed = (
         ((order[:, None] == modes.order) | (order[:, None] == _UNKNOWN))
-        & ((axial[:, None] == modes.axial) | (axial[:, None] == _UNKNOWN))
+        & (_called(axial, modes.axial, also) | (axial[:, None] == _UNKNOWN))
         & (modes.radial | ~labelled[:, None])
         & (cost < unpaired[:, None])
     )
-    close = np.abs(log_measured[:, None] - log_measured) <= doublet_split
+    alike = (axial[:, None] == axial) | (axial[:, None] == _UNKNOWN) | (axial == _UNKNOWN)
+    close = alike & (np.abs(log_measured[:, None] - log_measured) <= doublet_split)
     np.fill_diagonal(close, False)
     second = allowed & (close @ allowed) & modes.doublet
     return _table(np.where(allowed, cost, np.inf), second, unpaired, close)
+
+
+def _called(
+    measured: npt.NDArray[np.int64], own: npt.NDArray[np.int64], also: Sequence[Sequence[int | None]]
+) -> npt.NDArray[np.bool_]:
+    """Whether a simulated mode may be called by a measured count of node planes, shape (measured, simulated)."""
+    called = measured[:, None] == own
+    for j, counts in enumerate(also):
+        if counts:
+            called[:, j] |= np.isin(measured, _labels(counts, _NO_ORDER))
+    return np.asarray(called)
 
 
 def _table(

@@ -69,3 +69,18 @@ def test_lines_of_a_torn_doublet_stand_on_either_side_of_another_ones() -> None:
         inner,
         outer,
     )
+
+
+def test_a_mode_that_may_be_counted_in_any_way_leaves_another_ones_name_alone() -> None:
+    """It lies nearer to the other one's line, and its own would have no partner."""
+    mixed, other = (2, 1, 2), (2, 2, 0)
+    predicted = {
+        key: PredictedMode(
+            key, StatorMode(f, 2, key[1], "radial", 1.0, 2, 0, 0), float(np.log(f)), 0j, 1e-3, shown=shown
+        )
+        for key, f, shown in ((mixed, 6020.0, (1, 0, 1, 2, 3)), (other, 6093.0, (2,)))
+    }
+    modes = tuple(
+        MeasuredMode(i, str(i), f, order=2, axial=n) for i, (f, n) in enumerate(((5964.0, 1), (6004.0, 2)))
+    )
+    assert sought(MeasuredTest(0, "t", "free", modes, False), modes, predicted).within(1.0) == (mixed, other)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import inf, log
+from math import log
 
 import numpy as np
 
@@ -53,6 +53,7 @@ class Sought:
             labelled_gate=LABELLED_GATE,
             doublet_split=self.apart,
             with_doubt=False,
+            also=[line.counts[1:] for line in self.lines],
         )
         keys: list[ModeKey | None] = [None] * len(self.modes)
         for p in found.pairs:
@@ -64,19 +65,29 @@ def sought(
     test: MeasuredTest, modes: Sequence[MeasuredMode], predicted: Mapping[ModeKey, PredictedMode]
 ) -> Sought:
     """What partners are looked for among, at any reach."""
-    measured = _by_name(modes)
-    lines = [line for mode in predicted.values() for line in _lines(mode, _counted(mode, measured))]
+    lines = [line for mode in predicted.values() for line in _lines(mode)]
     # a heavy lump may part a doublet's lines by more than any scatter does
-    apart = [DOUBLET_SPLIT, *(AS_FAR * abs(m.split) / 2 for m in predicted.values()), *_of_one_name(measured)]
+    apart = [
+        DOUBLET_SPLIT,
+        *(AS_FAR * abs(m.split) / 2 for m in predicted.values()),
+        *_of_one_name(_by_name(modes)),
+    ]
     return Sought(test, modes, tuple(sorted(lines, key=lambda line: line.frequency_hz)), max(apart))
 
 
 @dataclass(frozen=True)
 class _Line:
-    """What a test may show of a predicted mode: both lines of a doublet, or one that lies far from the other."""
+    """What a test may show of a predicted mode: both lines of a doublet, or one that lies far from the other.
+
+    Parameters
+    ----------
+    mode : what it is of.
+    counts : of node planes that it may be called by.
+    frequency_hz, multiplicity : of the line, or of both.
+    """
 
     mode: PredictedMode
-    axial: int | None
+    counts: tuple[int | None, ...]
     frequency_hz: float
     multiplicity: int
 
@@ -89,6 +100,10 @@ class _Line:
         return self.mode.order
 
     @property
+    def axial(self) -> int | None:
+        return self.counts[0]
+
+    @property
     def kind(self) -> str:
         return self.mode.kind
 
@@ -97,12 +112,12 @@ class _Line:
         return self.mode.visibility
 
 
-def _lines(mode: PredictedMode, axial: int | None) -> list[_Line]:
+def _lines(mode: PredictedMode) -> list[_Line]:
     """A doublet that is parted by much has lines elsewhere than in its middle, and another's lie between them."""
-    away = abs(mode.split) / 4
+    away, counts = abs(mode.split) / 4, _counts(mode)
     if mode.multiplicity < 2 or away < PARTED:
-        return [_Line(mode, axial, mode.frequency_hz, mode.multiplicity)]
-    return [_Line(mode, axial, float(np.exp(mode.log_f + side * away)), 1) for side in (-1, 1)]
+        return [_Line(mode, counts, mode.frequency_hz, mode.multiplicity)]
+    return [_Line(mode, counts, float(np.exp(mode.log_f + side * away)), 1) for side in (-1, 1)]
 
 
 def _by_name(modes: Sequence[MeasuredMode]) -> Named:
@@ -122,14 +137,7 @@ def _of_one_name(measured: Named) -> list[float]:
     return [distance * (1 + ROUNDING) for distance in apart if distance <= WIDEST]
 
 
-def _counted(mode: PredictedMode, measured: Named) -> int | None:
-    """The one of a mode's counts of node planes that was measured nearest to its frequency."""
+def _counts(mode: PredictedMode) -> tuple[int | None, ...]:
+    """Of node planes that a mode may be called by, the likeliest first."""
     counts = mode.shown or (mode.axial,)
-    if mode.other_axial is not None:
-        counts = (*counts, mode.other_axial)
-    if counts == (mode.axial,):
-        return mode.axial
-    return min(
-        counts,
-        key=lambda n: min((abs(f - mode.log_f) for f in measured.get((mode.order, n), ())), default=inf),
-    )
+    return tuple(dict.fromkeys(counts if mode.other_axial is None else (*counts, mode.other_axial)))
