@@ -154,8 +154,25 @@ def test_where_none_fits_a_basis_that_knows_the_valleys_tells_others(monkeypatch
     assert chosen(monkeypatch, *wide, known=[right, first])[:2] == ("right", ["a", "right"])
     # what lies where something was settled leads there again
     near, behind = valley("a", 45.0, 1e-9, 300.0), valley("behind", 48.0, 0.9, 9.0)
-    assert chosen(monkeypatch, *wide, known=[near, behind])[:2] == ("behind", ["a", "behind"])
+    assert chosen(monkeypatch, wide[0], known=[near, behind])[:2] == ("behind", ["a", "behind"])
     assert chosen(monkeypatch, valley("fits", 10.0, 0.9, 9.0), known=[right])[:2] == ("fits", ["fits"])
+
+
+def test_what_only_the_poorer_basis_calls_by_its_name_is_followed_too(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Modes that two counts of node planes share had no partner where the right stack's valley was known."""
+    first, right = valley("a", 200.2, 1e-9, 213.0), valley("right", 158.7, 0.01, 160.5)
+    named_otherwise = valley("otherwise", 334.9, 1e-9, 340.0)
+    found, settled, _ = chosen(monkeypatch, first, drawn=[[right], []], known=[first, named_otherwise])
+    assert (found, settled) == ("right", ["a", "right"])
+
+
+def test_of_valleys_alike_while_they_are_wide_the_narrow_one_tells(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(new_step, "_wide_objective", lambda found: found.own_wide)
+    first, second = valley("a", 10.0, 1e-9, 187.5), valley("b", 9.0, 1e-9, 187.3)
+    first.objective, second.objective = 553.0, 742.0
+    assert new_step._best_in_wide_valleys([first, second]) is first  # type: ignore[list-item]
 
 
 def test_what_fled_in_a_poor_basis_is_followed_in_a_better_one(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -85,11 +85,12 @@ def with_step(
     found = _until_convincing(study, wide[:1], settings)
     if not _is_convincing(found[-1]):
         wide = different([*wide, *_of_more_draws(study, z, places, settings)])
-        # a basis of a few materials is too stiff elsewhere, and its band lacks the highest modes there
-        wide = _in_a_basis_that_knows(study, wide) or wide
+        # a basis of a few materials is too stiff elsewhere, and its band lacks the highest modes there; but where modes
+        # of one order come near each other, what they are called may differ from basis to basis
+        wide = different([*_in_a_basis_that_knows(study, wide), *wide])
         ahead = [w for w in _worth_following(wide) if _is_new(w, found, places)]
         found += _until_convincing(study, ahead, settings)
-    best = found[-1] if _is_convincing(found[-1]) else min(found, key=_wide_objective)
+    best = found[-1] if _is_convincing(found[-1]) else _best_in_wide_valleys(found)
     left = (w.z for w in wide[:FOLLOWED] if _is_new(w, found, places))
     return best.hypothesis.study, best.z, (*(r.z for r in found if r is not best), *left)
 
@@ -148,6 +149,13 @@ def _worth_following(wide: Sequence[Refit[Hypothesis]]) -> list[Refit[Hypothesis
     ]
     best = min(narrower, key=lambda pair: pair[0])[1] if narrower else wide[0]
     return alike if best in alike else [*alike, best]
+
+
+def _best_in_wide_valleys(found: Sequence[Refit[Hypothesis]]) -> Refit[Hypothesis]:
+    """The best of optima in wide valleys; of those that are alike there the one that leaves least."""
+    wide = [_wide_objective(r) for r in found]
+    alike = [r for r, objective in zip(found, wide, strict=True) if objective <= min(wide) + ALIKE]
+    return min(alike, key=lambda r: r.objective)
 
 
 def _wide_objective(found: Refit[Hypothesis]) -> float:
