@@ -41,6 +41,10 @@ class Search:
         self.objectives = list(objectives)
         self.lost: list[str] = []  # tests of which what leads lacks a line
         self.fled = False  # whether the winding of what leads has
+        self.symmetric, self.own = (
+            False,
+            0.0,
+        )  # what leads, and the chance of its misfit in a model of its own
         self.before = 0.0  # what the steps before the winding leave of the declared model
         items = tuple(SimpleNamespace(name=n, log=not n.endswith("nu_p"), fixed=False) for n in NAMES)
         tests = (SimpleNamespace(name="wound-free"),)
@@ -69,6 +73,10 @@ class Search:
         monkeypatch.setattr(module, "typical_where_fled", lambda _, stage, *__: stage if self.fled else None)
         monkeypatch.setattr(module, "refitted", self.refit)
         monkeypatch.setattr(module, "left_before", lambda *_: self.before)
+        monkeypatch.setattr(module, "keeps_symmetry", lambda _: self.symmetric)
+        monkeypatch.setattr(
+            module, "sharpened", lambda e: self.explanation(e.log_evidence, adequacy=self.own)
+        )
 
     @staticmethod
     def start(base: Any, candidate: Candidate, z: np.ndarray) -> Start:
@@ -162,6 +170,19 @@ def test_nothing_is_sought_where_something_explains_the_misfit(monkeypatch: pyte
     # a lump that leaves more than noise may stand in for an arc
     assert with_lost_contact(search.base, [search.explanation(-50.0, adequacy=0.05)], [ARCS], {})
     assert search.begun
+
+
+@pytest.mark.parametrize(
+    ("symmetric", "own", "sought"), [(True, 0.5, False), (True, 0.05, True), (False, 0.5, True)]
+)
+def test_what_explains_everything_in_a_model_of_its_own_needs_no_arcs(
+    monkeypatch: pytest.MonkeyPatch, symmetric: bool, own: float, sought: bool
+) -> None:
+    """Beside a wrong mass arcs were sought for minutes, for the basis was not the mass's own."""
+    search = Search(monkeypatch)
+    search.symmetric, search.own = symmetric, own
+    with_lost_contact(search.base, [search.explanation(-50.0, adequacy=0.05)], [ARCS], {})
+    assert bool(search.begun) == sought
 
 
 @pytest.mark.parametrize(("of_all", "sought"), [(0.05, True), (0.5, False)])

@@ -62,7 +62,7 @@ def test_what_is_reported_is_solved_at_its_own_materials(
     steps = [SimpleNamespace(refit=SimpleNamespace(objective=o, hypothesis=None, z=None)) for o in objectives]
     monkeypatch.setattr(module, "is_a_field", lambda *_: everywhere)
     monkeypatch.setattr(module, "_has_moved", lambda _: moved)
-    monkeypatch.setattr(module, "_keeps_symmetry", lambda _: symmetric)
+    monkeypatch.setattr(module, "keeps_symmetry", lambda _: symmetric)
     monkeypatch.setattr(module, "_sharpened", lambda one: steps[steps.index(one) + 1])
     begin: Any = steps[0]
     assert at_its_own_materials(begin).refit.objective == reported
@@ -103,7 +103,7 @@ def test_a_rival_s_arc_is_solved_as_it_is_alone(
 
     monkeypatch.setattr(module, "in_its_own_model", in_its_own_model)
     monkeypatch.setattr(module, "refitted", lambda *_: refit)
-    monkeypatch.setattr(module, "_keeps_symmetry", lambda _: True)
+    monkeypatch.setattr(module, "keeps_symmetry", lambda _: True)
     monkeypatch.setattr(Explanation, "adequacy_but_one", 0.5)
     assert sharpened(Explanation((), refit, -30.0), leads=leads).settled
     assert asked == [around]
@@ -128,7 +128,7 @@ def models_right_at_two_alone(monkeypatch: pytest.MonkeyPatch, lead: float) -> N
     monkeypatch.setattr(module, "refitted", refitted)
     monkeypatch.setattr(module, "refit_objective", there)
     monkeypatch.setattr(module, "through_wide_valleys", lambda *_: None)
-    monkeypatch.setattr(module, "_keeps_symmetry", lambda _: False)
+    monkeypatch.setattr(module, "keeps_symmetry", lambda _: False)
 
 
 @pytest.mark.parametrize(

@@ -41,6 +41,7 @@ from statorhom.diagnose.searches.arc_search import (
 from statorhom.diagnose.searches.earlier_steps import left_before
 from statorhom.diagnose.searches.fled_materials import typical_where_fled
 from statorhom.diagnose.searches.refit_starts import Start, first_start
+from statorhom.diagnose.searches.sharper import keeps_symmetry, sharpened
 from statorhom.diagnose.searches.typical_materials import with_typical_materials
 from statorhom.diagnose.stages.constants import new_constants
 from statorhom.errors import StatorhomError
@@ -76,7 +77,7 @@ def with_lost_contact(
     arcs = [c for c in arcs if _may_rival(base, best, c)]
     if not arcs:
         return []
-    is_open = not _is_settled(best, arcs)
+    is_open = not (_is_settled(best, arcs) or _is_settled(_at_its_best(best), arcs))
     anywhere = [c for c in arcs if is_open or _lacks_partners(best.refit, c) or _has_fled(best.refit, c)]
     if anywhere:
         own = [r for c in anywhere if (r := _beside_any(base, c, best.refit.cost)) is not None]
@@ -106,6 +107,11 @@ def _is_settled(best: Explanation, arcs: Sequence[Candidate]) -> bool:
     if best.candidates and best.candidates[-1] in arcs:
         return best.adequacy_of_all > WELL
     return best.adequacy_but_one > WELL
+
+
+def _at_its_best(best: Explanation) -> Explanation:
+    """What leads in a model of its own, where that costs little beside arcs: what breaks the symmetry takes as long."""
+    return sharpened(best) if best.candidates and keeps_symmetry(best.refit) else best
 
 
 def _lacks_partners(best: Refit, arc: Candidate) -> bool:

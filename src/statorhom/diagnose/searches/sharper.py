@@ -58,7 +58,7 @@ def sharpened(explanation: Explanation, *, leads: bool = True) -> Explanation:
             break
         explanation, found = found, _sharpened(found, around)
     found = replace(found, settled=True)
-    cheap = _keeps_symmetry(found.refit)
+    cheap = keeps_symmetry(found.refit)
     # where every start needs a model of its own, what is good enough for a name is good enough, but where modes mix:
     # with every other way of calling them there may be another valley
     enough = found.adequacy_but_one > (WELL if cheap else ADEQUATE) and not _mixes(found.refit)
@@ -78,7 +78,7 @@ def at_its_own_materials(explanation: Explanation) -> Explanation:
     """
     for _ in range(ROUNDS):
         r = explanation.refit
-        if _keeps_symmetry(r) or not (_has_moved(r) or is_a_field(r.hypothesis, r.z)):
+        if keeps_symmetry(r) or not (_has_moved(r) or is_a_field(r.hypothesis, r.z)):
             break
         again = _sharpened(explanation)
         gained = explanation.refit.objective - again.refit.objective
@@ -126,7 +126,7 @@ def _leads_past(r: Refit, again: Refit) -> bool:
     What breaks the symmetry strongly is off by more the further it is from where it was solved: then either optimum
     stands where the other one's model is wrong.
     """
-    if _keeps_symmetry(r) or again.objective < r.objective - SETTLED:
+    if keeps_symmetry(r) or again.objective < r.objective - SETTLED:
         return False
     return refit_objective(again.hypothesis, r.z) > again.objective + AWAY
 
@@ -214,7 +214,7 @@ def _has_own_fields(found: Refit) -> bool:
 def _from_there(best: Refit, start: np.ndarray) -> Refit | None:
     """The refit from other constants; what breaks the symmetry is solved there, for it does not move with them."""
     blank = replace(best.hypothesis, held=None)
-    if _keeps_symmetry(best):
+    if keeps_symmetry(best):
         return refitted(blank, start, worth=best.objective)
     try:
         # Modes are not paired anew: what leads further is followed once more. The first steps from so far promise too
@@ -224,6 +224,6 @@ def _from_there(best: Refit, start: np.ndarray) -> Refit | None:
         return None
 
 
-def _keeps_symmetry(found: Refit) -> bool:
+def keeps_symmetry(found: Refit) -> bool:
     """Whether nothing breaks the symmetry."""
     return not any(action.changes for action in found.hypothesis.actions(found.z))
