@@ -124,6 +124,16 @@ def test_what_few_modes_show_and_nothing_contradicts_is_named_where_all_else_is_
     assert decide(replace(far, held_out=FEW)) == "ambiguous"
 
 
+def test_errors_within_the_noise_contradict_nothing_whichever_is_the_smaller() -> None:
+    """A winding that follows the frequency: the declared one is as good in unseen modes, with impossible constants."""
+    noise = HeldOut(GROUPS, (0.1,) * 6, (0.15,) * 6, (0.2,) * 6)
+    far = replace(GOOD, held_out=noise, over_nothing=35.0, over_discrepancy=35.0)
+    assert decide(far) == "named"
+    assert decide(replace(far, over_nothing=19.0)) == "ambiguous"
+    assert decide(replace(far, over_others=4.9)) == "ambiguous"
+    assert decide(replace(far, held_out=replace(noise, after=(0.25,) * 6))) == "ambiguous"
+
+
 def test_lines_beside_their_mates_name_where_rivals_are_behind() -> None:
     lines = replace(GOOD, held_out=replace(FALLS, of_lines=True))
     assert not lines.predicts

@@ -104,5 +104,7 @@ def test_of_what_is_beyond_doubt_no_fall_is_asked() -> None:
     found = row(far, "held_out")
     assert found.passed and found.needed == 0.0 < found.found  # type: ignore[operator]
     assert row(far, "nothing").needed == row(far, "discrepancy").needed == FAR_OVER_NOTHING
+    noise = row(replace(far, held_out=replace(few, before=(0.05,) * 6, after=(0.08,) * 6)), "held_out")
+    assert noise.passed is None and noise.needed is None
     better = replace(few, after=(0.1, 0.1, 0.5, 0.1, 0.1, 0.1))
     assert row(replace(GOOD, held_out=better), "held_out").needed == better.least_fall

@@ -72,6 +72,11 @@ class HeldOut:
         return np.array(errors) / np.maximum(np.array(self.noise), LEAST_NOISE)
 
     @property
+    def within_noise(self) -> bool:
+        """Whether what was unseen is predicted as well as noise and what was seen allow."""
+        return bool(self.groups) and _rms(self._in_noise(self.after)) <= 1.0
+
+    @property
     def improves(self) -> bool:
         """Whether the error falls by enough, by chance or not."""
         return bool(self.groups) and self.after_rms <= (1 - self.least_fall) * self.before_rms

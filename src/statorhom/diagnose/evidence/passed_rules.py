@@ -66,12 +66,14 @@ def _held_out(e: Evidence, *, far: bool) -> RuleRow:
     unseen = e.held_out
     if unseen is None or unseen.before_rms <= 0.0:
         return RuleRow(rule="held_out", found=None, needed=None, passed=None)
-    better = far or (unseen.falls and not unseen.worsens)
+    # errors that are no more than noise tell nothing: where all else is far behind, nothing is asked of them
+    blind = far and unseen.within_noise and unseen.after_rms >= unseen.before_rms
+    better = not blind and (far or (unseen.falls and not unseen.worsens))
     return RuleRow(
         rule="held_out",
         found=1 - unseen.after_rms / unseen.before_rms,
         # where all else is far behind, it is enough that nothing contradicts
-        needed=unseen.least_fall if unseen.improves or not far else 0.0,
+        needed=unseen.least_fall if unseen.improves or not far else None if blind else 0.0,
         # too few modes show anything: they cannot contradict, nor can they confirm
-        passed=True if better else None if e.undecided else False,
+        passed=True if better else None if blind or e.undecided else False,
     )
