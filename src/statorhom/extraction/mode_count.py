@@ -6,6 +6,9 @@ Schwarz 1978), bring a shape of its own and be a pole that the window can show.
 
 from __future__ import annotations
 
+from functools import partial
+from typing import Protocol
+
 import numpy as np
 import numpy.typing as npt
 
@@ -19,7 +22,7 @@ ComplexArray = npt.NDArray[np.complex128]
 
 _MOST_NEW = 5  # modes per window and sweep
 # Modes that overlap are judged together: beside what is missing, each alone looks like noise.
-_AHEAD = 8  # modes that are tried before any is worth its price …
+_AHEAD = 12  # modes that are tried before any is worth its price …
 _FALLING = 0.8  # … while one more leaves at most this part of the misfit
 _BESIDE = 2.0  # half-power bandwidths within which a doublet's other mode may lie that no stable pole shows
 _HOPELESS = 0.3  # of the price: a candidate that promises less before its pole is optimized is left
@@ -32,23 +35,40 @@ _LEAST__BESIDE = 0.1  # … by this part
 _MODEL_MISFIT = (
     1.5  # from which on the model, not the noise, limits what is explained; then a mode must make up …
 )
-_LEAST_PRESENCE = 0.2  # … this part of the receptance at its frequency, in half of the FRFs
+_LEAST_PRESENCE = 0.2  # … this part of the receptance at its frequency, in half of the FRFs …
+_MOST = 0.5  # … or leave less than this part of the misfit, …
+_NOISE = 4.0  # … and no more than this after all of them
+
+
+class _Add(Protocol):
+    """A fit with a further mode; None where there is none."""
+
+    def __call__(self, *, fit: WindowFit) -> WindowFit | None: ...
 
 
 def drop_doubtful(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
     """Remove, the weakest first, poles that the window cannot show and those that only correct the model."""
     while True:
-        doubtful = [
+        impossible = [
             m
             for m in range(len(fit.modes))
-            if not plausible(window, fit.modes.poles[m])
-            or repeats(fit, neighbours, m)
-            or not present(window, fit, m)
+            if not plausible(window, fit.modes.poles[m]) or repeats(fit, neighbours, m)
         ]
-        if not doubtful:
+        faint = [m for m in range(len(fit.modes)) if m not in impossible and not present(window, fit, m)]
+        if not (impossible or faint):
             return fit
         worth = _worth(window, fit)
-        fit = fit_window(window, fit.modes.without(min(doubtful, key=lambda m: worth[m])), neighbours)
+        weakest = min([*impossible, *faint], key=lambda m: worth[m])
+        smaller = fit_window(window, fit.modes.without(weakest), neighbours)
+        at_noise = not window.quiet and misfit(window, fit) < _NOISE
+        if weakest in faint and at_noise and _explains(smaller, fit):
+            return fit
+        fit = smaller
+
+
+def _explains(smaller: WindowFit, larger: WindowFit) -> bool:
+    """Whether one mode more explains most of the misfit: between broad peaks it may be none of the strong ones."""
+    return larger.chi2 < _MOST * smaller.chi2
 
 
 def prune(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
@@ -101,13 +121,26 @@ def grow(
 def _larger(
     window: Window, fit: WindowFit, neighbours: Modes, stable: ComplexArray, reach: tuple[float, float]
 ) -> WindowFit | None:
-    """Fit with one mode more, or several where fewer leave too much misfit to be judged; None for none."""
+    """Fit with one mode more, or several where fewer leave too much misfit to be judged; None for none.
+
+    Where none stands out for itself, faint ones may together explain the data down to the noise.
+    """
+    add = partial(_with_candidate, window, neighbours=neighbours, stable=stable, reach=reach)
+    found = _worth_their_price(window, fit, add)
+    if found is None and not window.quiet and misfit(window, fit) > _MODEL_MISFIT:
+        found = _worth_their_price(window, fit, partial(add, faint=True), most=_NOISE)
+    return found
+
+
+def _worth_their_price(window: Window, fit: WindowFit, add: _Add, most: float = np.inf) -> WindowFit | None:
+    """Fit with as few modes more as are worth their price together and leave no more misfit than `most`."""
     smaller = fit
     for added in range(1, _AHEAD + 1):
-        larger = _with_candidate(window, smaller, neighbours, stable, reach)
+        larger = add(fit=smaller)
         if larger is None:
             return None
-        if 2 * (fit.chi2 - larger.chi2) / dispersion(window, larger) >= added * price(window):
+        worth = 2 * (fit.chi2 - larger.chi2) / dispersion(window, larger)
+        if worth >= added * price(window) and misfit(window, larger) < most:
             return larger
         # a mode more explains a good part of what is left as long as some are missing
         if added > 1 and larger.chi2 > _FALLING * smaller.chi2:
@@ -117,9 +150,20 @@ def _larger(
 
 
 def _with_candidate(
-    window: Window, fit: WindowFit, neighbours: Modes, stable: ComplexArray, reach: tuple[float, float]
+    window: Window,
+    *,
+    fit: WindowFit,
+    neighbours: Modes,
+    stable: ComplexArray,
+    reach: tuple[float, float],
+    faint: bool = False,
 ) -> WindowFit | None:
-    """Fit with the most promising further mode that is physical; None where none is promising."""
+    """Fit with the most promising further mode that is physical; None where none is promising.
+
+    Parameters
+    ----------
+    faint : whether one will do that does not stand out, but explains most of what is left.
+    """
     known = np.concatenate([fit.modes.poles, neighbours.poles])
     trials = trial_poles(window, known, reach)
     for candidate in best_candidates(window, fit, neighbours, trials, _CANDIDATES):
@@ -131,13 +175,25 @@ def _with_candidate(
             neighbours,
             _TRIAL_ITERATIONS,
         )
-        beyond = not window.squared[0] < larger.modes.poles[-1].real < window.squared[-1]
-        seen = beyond or _near(larger.modes.poles[-1], np.concatenate([known, stable]))
-        physical = seen and all(plausible(window, pole) for pole in larger.modes.poles)
-        physical = physical and present(window, larger, len(larger.modes) - 1)
+        physical = all(plausible(window, pole) for pole in larger.modes.poles)
+        will_do = faint and _is_inside(window, larger.modes.poles[-1]) and _explains(fit, larger)
+        physical = physical and (will_do or _stands_out(window, larger, known, stable))
         if physical and not any(repeats(larger, neighbours, m) for m in range(len(larger.modes))):
             return larger
     return None
+
+
+def _is_inside(window: Window, pole: complex) -> bool:
+    """Whether its whole peak lies in the window: at an end anything may be the flank of something beyond."""
+    return bool(window.squared[0] < pole.real - pole.imag and pole.real + pole.imag < window.squared[-1])
+
+
+def _stands_out(window: Window, larger: WindowFit, known: ComplexArray, stable: ComplexArray) -> bool:
+    """Whether the last mode is where others are or the start estimator saw one, and is strong enough there."""
+    pole = larger.modes.poles[-1]
+    beyond = not window.squared[0] < pole.real < window.squared[-1]
+    seen = beyond or _near(pole, np.concatenate([known, stable]))
+    return seen and present(window, larger, len(larger.modes) - 1)
 
 
 def _near(pole: complex, others: ComplexArray) -> bool:

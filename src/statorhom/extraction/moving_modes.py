@@ -203,6 +203,8 @@ def distinct(fit: WindowFit) -> list[int]:
 
 def _damped(window: Window, fit: WindowFit, neighbours: Modes, set_ups: SetUps) -> WindowFit:
     """Also the damping may move: from hammer point to hammer point supports settle, but a mass damps nothing."""
+    if not fit.modes.moving.any():
+        return fit
     trial = fit_shifted(window, fit.modes, neighbours, fit.modes.moving, set_ups, damped=True)
     return _cheaper(window, trial, fit)
 

@@ -172,7 +172,7 @@ def _settled(study: StudyModel, found: Refit[Hypothesis], settings: Settings) ->
         before = _frequencies(stage, materials)
         better = with_reference(stage, materials)
         moved = _moved(before, _frequencies(better, materials))
-        if number == 0:
+        if number == 0 or not _is_convincing(found):
             error = mesh_error(stage.setup, better.ring, materials, settings.density)
             better = better.with_error(error)
         study = study.with_stages((*study.stages[:-1], better))
