@@ -36,7 +36,7 @@ _MODEL_MISFIT = (
     1.5  # from which on the model, not the noise, limits what is explained; then a mode must make up …
 )
 _LEAST_PRESENCE = 0.2  # … this part of the receptance at its frequency, in half of the FRFs …
-_MOST = 0.5  # … or leave less than this part of the misfit, …
+_REST = 0.5  # … or leave less than this part of the misfit, …
 _NOISE = 4.0  # … and no more than this after all of them
 
 
@@ -58,17 +58,19 @@ def drop_doubtful(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFi
         if not (impossible or faint):
             return fit
         worth = _worth(window, fit)
-        weakest = min([*impossible, *faint], key=lambda m: worth[m])
-        smaller = fit_window(window, fit.modes.without(weakest), neighbours)
         at_noise = not window.quiet and misfit(window, fit) < _NOISE
-        if weakest in faint and at_noise and _explains(smaller, fit):
+        for m in sorted([*impossible, *faint], key=lambda m: worth[m]):
+            smaller = fit_window(window, fit.modes.without(m), neighbours)
+            if m not in faint or not at_noise or not _explains(smaller, fit):
+                break
+        else:
             return fit
         fit = smaller
 
 
 def _explains(smaller: WindowFit, larger: WindowFit) -> bool:
     """Whether one mode more explains most of the misfit: between broad peaks it may be none of the strong ones."""
-    return larger.chi2 < _MOST * smaller.chi2
+    return larger.chi2 < _REST * smaller.chi2
 
 
 def prune(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
