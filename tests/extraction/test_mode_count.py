@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from types import SimpleNamespace
 from typing import Any
 
-import numpy as np
 import pytest
 
 from statorhom.extraction import mode_count
@@ -26,8 +25,8 @@ def added(monkeypatch: pytest.MonkeyPatch, misfits: Sequence[float]) -> tuple[in
     # what the noise does not explain counts as noise, smooth along ten lines
     monkeypatch.setattr(mode_count, "dispersion", lambda _, fit: 10.0 * fit.chi2)
     monkeypatch.setattr(mode_count, "price", lambda _: 1.0)
-    window: Any = SimpleNamespace(quiet=True)
-    found: Any = mode_count._larger(window, fits[0], window, np.zeros(0), (0.0, 0.0))  # type: ignore[arg-type]
+    among: Any = SimpleNamespace(window=SimpleNamespace(quiet=True))
+    found: Any = mode_count._larger(among, fits[0])  # type: ignore[arg-type]
     return None if found is None else found.number, len(fits) - 1 - len(list(waiting))
 
 
@@ -60,13 +59,13 @@ def test_faint_modes_are_modes_where_they_explain_everything(
     """Between broad peaks a mode makes up little of any FRF, and two of a wound stator's 39 were not taken."""
     fits = [SimpleNamespace(chi2=misfit, number=number) for number, misfit in enumerate(misfits)]
 
-    def candidate(*_: Any, fit: Any, faint: bool = False, **__: Any) -> Any:
+    def candidate(_: Any, fit: Any, *, faint: bool = False) -> Any:
         return fits[fit.number + 1] if faint and fit.number + 1 < len(fits) else None
 
     monkeypatch.setattr(mode_count, "_with_candidate", candidate)
     monkeypatch.setattr(mode_count, "misfit", lambda _, fit: fit.chi2)
     monkeypatch.setattr(mode_count, "dispersion", lambda _, fit: fit.chi2)
     monkeypatch.setattr(mode_count, "price", lambda _: 1.0)
-    window: Any = SimpleNamespace(quiet=quiet)
-    found: Any = mode_count._larger(window, fits[0], window, np.zeros(0), (0.0, 0.0))  # type: ignore[arg-type]
+    among: Any = SimpleNamespace(window=SimpleNamespace(quiet=quiet))
+    found: Any = mode_count._larger(among, fits[0])  # type: ignore[arg-type]
     assert (None if found is None else found.number) == number

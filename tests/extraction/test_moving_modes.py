@@ -12,7 +12,10 @@ from statorhom.extraction import extract
 from statorhom.extraction.extraction import ExtractedMode
 from statorhom.extraction.mode_search import FittedWindow, ModeSearch
 from statorhom.extraction.moving_modes import most_move
-from statorhom.extraction.set_up_shifts import SetUps
+from statorhom.extraction.noise import expected_sd, noise_sd
+from statorhom.extraction.point_grid import point_grid
+from statorhom.extraction.set_up_shifts import SetUps, fit_shifted
+from statorhom.extraction.window_fit import fit_window
 from statorhom.recordings.frf_set import FrfSet
 from synthetic_frfs import frf_set, ring_points, ring_shape
 
@@ -67,6 +70,19 @@ def test_a_mode_that_is_but_a_trace_is_not_listed_where_the_model_limits_the_fit
     frfs = frf_set(LINES, POINTS, [0], [*POLES, (1240.0, 0.01)], shapes, noise=1e-4, floor_db=-140.0)
     found = extract(frfs)
     assert [round(mode.frequency_hz) for mode in found.modes] == [1000, 1500]
+
+
+@pytest.mark.parametrize("set_ups", SetUps)
+def test_where_no_mode_is_to_move_none_does(set_ups: SetUps) -> None:
+    """A hammered beam stopped here, at products of no columns."""
+    grid = point_grid([drifting()])
+    poles = np.array([(2 * np.pi * f) ** 2 * (1 + 1j * loss) for f, loss in POLES])
+    parts = np.ones((len(POLES), len(HAMMERS)), dtype=complex)
+    search = ModeSearch(grid, expected_sd(grid, noise_sd(grid)), poles, parts, poles)
+    window, none = search.window(slice(0, len(LINES))), search.modes.of([])
+    plain = fit_window(window, search.modes, none)
+    found = fit_shifted(window, search.modes, none, np.zeros(len(POLES), dtype=bool), set_ups)
+    assert found.chi2 == plain.chi2 and not found.modes.moving.any()
 
 
 def test_a_promise_from_afar_is_dropped_where_the_windows_do_not_keep_it() -> None:

@@ -206,8 +206,7 @@ def weighted_products(weights: FloatArray, a: ComplexArray, b: ComplexArray) -> 
         return product
     # columns that all points share: one product of real matrices for all points
     pairs = (a[0].conj()[:, None] * b[0][None]).reshape(-1, a.shape[-1])
-    shape = (len(weights), a.shape[1], b.shape[1])
-    return (weights @ pairs.real.T + 1j * (weights @ pairs.imag.T)).reshape(shape)
+    return _summed(weights, pairs).reshape(len(weights), a.shape[1], b.shape[1])
 
 
 def weighted_gram(weights: FloatArray, a: ComplexArray) -> ComplexArray:
@@ -215,12 +214,16 @@ def weighted_gram(weights: FloatArray, a: ComplexArray) -> ComplexArray:
     if len(a) > 1 or len(weights) < _MANY_POINTS:
         return weighted_products(weights, a, a)
     i, j = np.triu_indices(a.shape[1])
-    pairs = a[0].conj()[i] * a[0][j]
-    upper = weights @ pairs.real.T + 1j * (weights @ pairs.imag.T)
+    upper = _summed(weights, a[0].conj()[i] * a[0][j])
     gram = np.empty((len(weights), a.shape[1], a.shape[1]), dtype=complex)
     gram[:, j, i] = upper.conj()
     gram[:, i, j] = upper
     return gram
+
+
+def _summed(weights: FloatArray, pairs: ComplexArray) -> ComplexArray:
+    """Σ w p over the data, shape (points, pairs), by products of real matrices."""
+    return np.asarray(weights @ pairs.real.T + 1j * (weights @ pairs.imag.T))
 
 
 def solve_linear(window: Window, phi: ComplexArray) -> Linear:

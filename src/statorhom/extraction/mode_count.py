@@ -6,8 +6,7 @@ Schwarz 1978), bring a shape of its own and be a pole that the window can show.
 
 from __future__ import annotations
 
-from functools import partial
-from typing import Protocol
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -40,10 +39,14 @@ _REST = 0.5  # … or leave less than this part of the misfit, …
 _NOISE = 4.0  # … and no more than this after all of them
 
 
-class _Add(Protocol):
-    """A fit with a further mode; None where there is none."""
+@dataclass(frozen=True)
+class _Among:
+    """What further modes are sought among, as of `grow`."""
 
-    def __call__(self, *, fit: WindowFit) -> WindowFit | None: ...
+    window: Window
+    neighbours: Modes
+    stable: ComplexArray
+    reach: tuple[float, float]
 
 
 def drop_doubtful(window: Window, fit: WindowFit, neighbours: Modes) -> WindowFit:
@@ -112,33 +115,32 @@ def grow(
     reach : (below, above)
         How far beyond the window, in its width, poles are looked for.
     """
+    among = _Among(window, neighbours, stable, reach)
     for _ in range(most):
-        larger = _larger(window, fit, neighbours, stable, reach)
+        larger = _larger(among, fit)
         if larger is None:
             break
         fit = larger
     return fit
 
 
-def _larger(
-    window: Window, fit: WindowFit, neighbours: Modes, stable: ComplexArray, reach: tuple[float, float]
-) -> WindowFit | None:
+def _larger(among: _Among, fit: WindowFit) -> WindowFit | None:
     """Fit with one mode more, or several where fewer leave too much misfit to be judged; None for none.
 
     Where none stands out for itself, faint ones may together explain the data down to the noise.
     """
-    add = partial(_with_candidate, window, neighbours=neighbours, stable=stable, reach=reach)
-    found = _worth_their_price(window, fit, add)
-    if found is None and not window.quiet and misfit(window, fit) > _MODEL_MISFIT:
-        found = _worth_their_price(window, fit, partial(add, faint=True), most=_NOISE)
+    found = _worth_their_price(among, fit)
+    if found is None and not among.window.quiet and misfit(among.window, fit) > _MODEL_MISFIT:
+        found = _worth_their_price(among, fit, faint=True)
     return found
 
 
-def _worth_their_price(window: Window, fit: WindowFit, add: _Add, most: float = np.inf) -> WindowFit | None:
-    """Fit with as few modes more as are worth their price together and leave no more misfit than `most`."""
+def _worth_their_price(among: _Among, fit: WindowFit, *, faint: bool = False) -> WindowFit | None:
+    """Fit with as few modes more as are worth their price together; faint ones have to explain everything."""
+    window, most = among.window, _NOISE if faint else np.inf
     smaller = fit
     for added in range(1, _AHEAD + 1):
-        larger = add(fit=smaller)
+        larger = _with_candidate(among, smaller, faint=faint)
         if larger is None:
             return None
         worth = 2 * (fit.chi2 - larger.chi2) / dispersion(window, larger)
@@ -151,23 +153,16 @@ def _worth_their_price(window: Window, fit: WindowFit, add: _Add, most: float = 
     return None
 
 
-def _with_candidate(
-    window: Window,
-    *,
-    fit: WindowFit,
-    neighbours: Modes,
-    stable: ComplexArray,
-    reach: tuple[float, float],
-    faint: bool = False,
-) -> WindowFit | None:
+def _with_candidate(among: _Among, fit: WindowFit, *, faint: bool = False) -> WindowFit | None:
     """Fit with the most promising further mode that is physical; None where none is promising.
 
     Parameters
     ----------
     faint : whether one will do that does not stand out, but explains most of what is left.
     """
+    window, neighbours = among.window, among.neighbours
     known = np.concatenate([fit.modes.poles, neighbours.poles])
-    trials = trial_poles(window, known, reach)
+    trials = trial_poles(window, known, among.reach)
     for candidate in best_candidates(window, fit, neighbours, trials, _CANDIDATES):
         if 2 * candidate.gain / misfit(window, fit) < _HOPELESS * price(window):
             return None
@@ -179,7 +174,9 @@ def _with_candidate(
         )
         physical = all(plausible(window, pole) for pole in larger.modes.poles)
         will_do = faint and _is_inside(window, larger.modes.poles[-1]) and _explains(fit, larger)
-        physical = physical and (will_do or _stands_out(window, larger, known, stable))
+        physical = physical and (
+            will_do or _stands_out(window, larger, np.concatenate([known, among.stable]))
+        )
         if physical and not any(repeats(larger, neighbours, m) for m in range(len(larger.modes))):
             return larger
     return None
@@ -190,12 +187,11 @@ def _is_inside(window: Window, pole: complex) -> bool:
     return bool(window.squared[0] < pole.real - pole.imag and pole.real + pole.imag < window.squared[-1])
 
 
-def _stands_out(window: Window, larger: WindowFit, known: ComplexArray, stable: ComplexArray) -> bool:
+def _stands_out(window: Window, larger: WindowFit, expected: ComplexArray) -> bool:
     """Whether the last mode is where others are or the start estimator saw one, and is strong enough there."""
     pole = larger.modes.poles[-1]
     beyond = not window.squared[0] < pole.real < window.squared[-1]
-    seen = beyond or _near(pole, np.concatenate([known, stable]))
-    return seen and present(window, larger, len(larger.modes) - 1)
+    return (beyond or _near(pole, expected)) and present(window, larger, len(larger.modes) - 1)
 
 
 def _near(pole: complex, others: ComplexArray) -> bool:

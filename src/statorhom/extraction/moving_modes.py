@@ -203,8 +203,6 @@ def distinct(fit: WindowFit) -> list[int]:
 
 def _damped(window: Window, fit: WindowFit, neighbours: Modes, set_ups: SetUps) -> WindowFit:
     """Also the damping may move: from hammer point to hammer point supports settle, but a mass damps nothing."""
-    if not fit.modes.moving.any():
-        return fit
     trial = fit_shifted(window, fit.modes, neighbours, fit.modes.moving, set_ups, damped=True)
     return _cheaper(window, trial, fit)
 
@@ -215,7 +213,7 @@ def _cheaper(window: Window, trial: WindowFit, fit: WindowFit) -> WindowFit:
 
 def refitted(window: Window, modes: Modes, neighbours: Modes, set_ups: SetUps | None) -> WindowFit:
     """Fit with the modes that moved before moving on."""
-    if set_ups is None or not modes.moving.any():
+    if set_ups is None:
         return fit_window(window, modes, neighbours)
     damped = bool(np.any(modes.shift.imag != 0))
     return fit_shifted(window, modes, neighbours, modes.moving, set_ups, damped)

@@ -60,7 +60,7 @@ def fit_shifted(
     set_ups: SetUps,
     damped: bool = False,
 ) -> WindowFit:
-    """Fit with free shifts of some modes.
+    """Fit with free shifts of some modes; a plain one where none is to move.
 
     Parameters
     ----------
@@ -69,6 +69,8 @@ def fit_shifted(
         Whether the damping shifts as well.
     """
     chosen = np.flatnonzero(np.asarray(moving, dtype=bool))
+    if not len(chosen):
+        return fit_window(window, modes, neighbours)
     modes = _opened(window, modes, set_ups)
     if set_ups is SetUps.POINTS:
         for m in chosen:

@@ -41,10 +41,8 @@ class Search:
         self.objectives = list(objectives)
         self.lost: list[str] = []  # tests of which what leads lacks a line
         self.fled = False  # whether the winding of what leads has
-        self.symmetric, self.own = (
-            False,
-            0.0,
-        )  # what leads, and the chance of its misfit in a model of its own
+        self.symmetric = False  # whether what leads keeps the symmetry
+        self.own = 0.0  # the chance of its misfit in a model of its own
         self.before = 0.0  # what the steps before the winding leave of the declared model
         items = tuple(SimpleNamespace(name=n, log=not n.endswith("nu_p"), fixed=False) for n in NAMES)
         tests = (SimpleNamespace(name="wound-free"),)

@@ -111,10 +111,7 @@ class Evidence:
         be as strong, so that something in none has to be as far behind as nothing.
         """
         unseen = self.held_out
-        if unseen is None or not too_few(unseen):
-            return False
-        # which of two errors is the smaller one says nothing where the larger is no more than noise
-        if unseen.after_rms >= unseen.before_rms and not unseen.within_noise:
+        if unseen is None or not too_few(unseen) or unseen.contradicts:
             return False
         return min(self.over_nothing, self.over_discrepancy) > FAR_OVER_NOTHING
 

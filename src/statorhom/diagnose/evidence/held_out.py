@@ -72,9 +72,13 @@ class HeldOut:
         return np.array(errors) / np.maximum(np.array(self.noise), LEAST_NOISE)
 
     @property
-    def within_noise(self) -> bool:
-        """Whether what was unseen is predicted as well as noise and what was seen allow."""
-        return bool(self.groups) and _rms(self._in_noise(self.after)) <= 1.0
+    def contradicts(self) -> bool:
+        """Whether what was unseen is predicted no better, and worse than noise and what was seen allow.
+
+        Which of two errors is the smaller one says nothing where the larger is no more than noise.
+        """
+        within_noise = bool(self.groups) and _rms(self._in_noise(self.after)) <= 1.0
+        return self.after_rms >= self.before_rms and not within_noise
 
     @property
     def improves(self) -> bool:

@@ -67,7 +67,7 @@ def _held_out(e: Evidence, *, far: bool) -> RuleRow:
     if unseen is None or unseen.before_rms <= 0.0:
         return RuleRow(rule="held_out", found=None, needed=None, passed=None)
     # errors that are no more than noise tell nothing: where all else is far behind, nothing is asked of them
-    blind = far and unseen.within_noise and unseen.after_rms >= unseen.before_rms
+    blind = far and unseen.after_rms >= unseen.before_rms
     better = not blind and (far or (unseen.falls and not unseen.worsens))
     return RuleRow(
         rule="held_out",
