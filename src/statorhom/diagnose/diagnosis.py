@@ -17,7 +17,6 @@ from statorhom.diagnose.evidence.decision import (
     Evidence,
     Verdict,
     decide,
-    differs_from_absence,
     least_over_nothing,
     others,
     within_bounds,
@@ -31,6 +30,7 @@ from statorhom.diagnose.evidence.passed_rules import rule_rows
 from statorhom.diagnose.evidence.resampling import stability
 from statorhom.diagnose.evidence.shared_part import shared_part
 from statorhom.diagnose.evidence.simpler import by_criterion, simpler_fits
+from statorhom.diagnose.fits.absence import differs_from_absence
 from statorhom.diagnose.fits.baseline import Baseline
 from statorhom.diagnose.fits.explanations import (
     ADEQUATE,

@@ -6,14 +6,12 @@ from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
-import numpy as np
 import pytest
 from example_evidence import FALLS, GOOD, GROUPS
 
-from statorhom.diagnose.evidence.decision import decide, differs_from_absence, within_bounds
+from statorhom.diagnose.evidence.decision import decide, within_bounds
 from statorhom.diagnose.evidence.held_out import HeldOut
 from statorhom.diagnose.fits.explanations import Explanation
-from statorhom.materials.typical_ranges import Z95
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.parameter import EffectParameter
 
@@ -162,46 +160,6 @@ def test_a_dimension_within_its_tolerance_was_not_mistyped(value: float, within:
     hypothesis: Any = SimpleNamespace(effect_values=lambda _: [{"value": value}])
     refit: Any = SimpleNamespace(hypothesis=hypothesis, z=None)
     assert within_bounds(Explanation((candidate,), refit, 0.0)) is within
-
-
-@pytest.mark.parametrize(
-    ("kelvin", "sd", "differs"), [(9.5, 8.2, False), (9.5, 5.0, True), (-9.5, 5.0, True), (0.1, 8.2, False)]
-)
-def test_what_may_as_well_be_absent_is_not_what_is_missing(kelvin: float, sd: float, differs: bool) -> None:
-    """Of a clean chain a temperature, 9.5 K (-4 … 23), led the constants out of a wrong valley and got the name."""
-    warmth = EffectParameter("temperature_k", -20.0, 20.0, -60.0, 60.0, "linear", (5.0,), 0.0)
-    unit = 40.0 / (2 * Z95)
-    candidate = Candidate("temperature_shift", "wound", (warmth,))
-    hypothesis: Any = SimpleNamespace(constants=1, parameters=[(0, 0)], candidates=(candidate,))
-    refit: Any = SimpleNamespace(
-        hypothesis=hypothesis, z=np.array([0.3, kelvin / unit]), covariance=np.diag([1.0, (sd / unit) ** 2])
-    )
-    assert differs_from_absence(Explanation((candidate,), refit, 0.0)) is differs
-
-
-@pytest.mark.parametrize("absent", [None, 0.0])
-def test_a_magnitude_without_an_absence_on_its_scale_is_never_that(absent: float | None) -> None:
-    mass = EffectParameter("mass_kg", 0.01, 0.1, 1e-4, 10.0, "log", (0.03,), absent)
-    candidate = Candidate("attached_mass", "wound", (mass,))
-    hypothesis: Any = SimpleNamespace(constants=0, parameters=[(0, 0)], candidates=(candidate,))
-    refit: Any = SimpleNamespace(hypothesis=hypothesis, z=np.zeros(1), covariance=np.eye(1) * 100.0)
-    assert differs_from_absence(Explanation((candidate,), refit, 0.0))
-
-
-def test_an_effect_without_a_magnitude_is_there_or_not() -> None:
-    name = Candidate("mislabelled_mode", "wound", ())
-    hypothesis: Any = SimpleNamespace(constants=1, parameters=[], candidates=(name,))
-    refit: Any = SimpleNamespace(hypothesis=hypothesis, z=np.zeros(1), covariance=np.eye(1))
-    assert differs_from_absence(Explanation((name,), refit, 0.0))
-
-
-def test_beside_a_wrong_name_a_magnitude_has_to_differ_from_absence_too() -> None:
-    warmth = EffectParameter("temperature_k", -20.0, 20.0, -60.0, 60.0, "linear", (5.0,), 0.0)
-    pair = (Candidate("mislabelled_mode", "wound", ()), Candidate("temperature_shift", "wound", (warmth,)))
-    hypothesis: Any = SimpleNamespace(constants=0, parameters=[(1, 0)], candidates=pair)
-    for sd, differs in ((1.0, False), (0.1, True)):
-        refit: Any = SimpleNamespace(hypothesis=hypothesis, z=np.ones(1), covariance=np.eye(1) * sd**2)
-        assert differs_from_absence(Explanation(pair, refit, 0.0)) is differs
 
 
 def test_many_modes_without_a_partner_are_no_accident_whatever_the_scan_says() -> None:

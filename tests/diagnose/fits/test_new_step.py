@@ -196,3 +196,47 @@ def test_a_basis_without_any_mode_of_the_band_has_not_settled(
     before: dict[int, float], after: dict[int, float], moved: float
 ) -> None:
     assert new_step._moved(before, after) == pytest.approx(moved, rel=1e-2)
+
+
+def settled(monkeypatch: pytest.MonkeyPatch, straight: float, gently: float | None) -> tuple[float, int]:
+    """What a step ends at whose refit leads to one chance straight and another by degrees, and how many are made."""
+    gone = 0
+
+    def optimum(chance: float) -> SimpleNamespace:
+        hypothesis = SimpleNamespace(materials=lambda *_: None)
+        return SimpleNamespace(objective=1.0 / chance, adequacy=chance, z=chance, hypothesis=hypothesis)
+
+    def by_degrees(*_: Any) -> SimpleNamespace | None:
+        nonlocal gone
+        gone += 1
+        return None if gently is None else optimum(gently)
+
+    step = SimpleNamespace(setup=None, ring=None)
+    step.with_error = lambda _: step
+    study = SimpleNamespace(stages=(step,))
+    study.with_stages = lambda _: study
+    for name, fake in {
+        "_frequencies": lambda *_: {0: 1000.0},
+        "with_reference": lambda *_: step,
+        "mesh_error": lambda *_: None,
+        "Hypothesis": lambda study: study,
+        "refit": lambda _, z: optimum(straight if z is None else z),
+        "by_degrees": by_degrees,
+        "nothing": lambda found: found,
+    }.items():
+        monkeypatch.setattr(new_step, name, fake)
+    found: Any = optimum(1e-9)
+    found.z = None
+    settings: Any = SimpleNamespace(density=None)
+    return new_step._settled(study, found, settings).adequacy, gone  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("straight", "gently", "chance", "made"),
+    [(0.5, 0.9, 0.5, 0), (1e-14, 0.83, 0.83, 1), (1e-3, 1e-9, 1e-3, 1), (1e-3, None, 1e-3, 1)],
+)
+def test_what_does_not_convince_straight_is_followed_by_degrees_too(
+    monkeypatch: pytest.MonkeyPatch, straight: float, gently: float | None, chance: float, made: int
+) -> None:
+    """A stack's axial stiffness jumped to where (2, 2) had no partner (108 of the objective); by degrees: 17."""
+    assert settled(monkeypatch, straight, gently) == (chance, made)

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from statorhom.diagnose.fits import absence
 from statorhom.diagnose.fits.explanations import PAIR_GAIN, Explanation
-from statorhom.diagnose.searches import alone as module
 from statorhom.diagnose.searches.alone import with_both_needed
 
 CONSTANTS = 2
@@ -46,8 +46,8 @@ def found(monkeypatch: pytest.MonkeyPatch, evidence: dict[str, float | None]) ->
     def blank(hypothesis: Hypothesis, candidates: tuple[Any, ...]) -> Hypothesis:
         return Hypothesis(candidates=candidates, constants=hypothesis.constants)
 
-    monkeypatch.setattr(module, "refitted", refitted)
-    monkeypatch.setattr(module, "blank", blank)
+    monkeypatch.setattr(absence, "refitted", refitted)
+    monkeypatch.setattr(absence, "blank", blank)
     instead = with_both_needed([pair(-50.0), pair(-52.0)], {})
     assert begun["viscoelastic_winding"].tolist() == [0.1, 0.2, 3.0]
     assert begun["end_winding_stiffness"].tolist() == [0.1, 0.2, 4.0, 5.0]

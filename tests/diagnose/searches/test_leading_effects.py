@@ -12,7 +12,6 @@ import pytest
 from statorhom.diagnose.searches import declared_again as again
 from statorhom.diagnose.searches import leading_effects as leading
 from statorhom.diagnose.searches.leading_effects import leading_effects
-from statorhom.physics.parameter import EffectParameter
 
 
 def base(log_evidence: float, objective: float = 1000.0, constants: int = 2) -> Any:
@@ -213,9 +212,9 @@ def sought_again(
     )
     monkeypatch.setattr(again, "nothing", lambda refit: SimpleNamespace(refit=refit))
     monkeypatch.setattr(again, "sharpened", lambda e: e)
-    monkeypatch.setattr(again, "differs_from_absence", lambda _: True)
+    monkeypatch.setattr(again, "shown_by_magnitudes", lambda _: [True])
     fit = SimpleNamespace(hypothesis=SimpleNamespace(study=None, constants=2), z=[1.0, 2.0, 3.0], cost=30.0)
-    found: Any = [SimpleNamespace(refit=fit, adequacy_but_one=adequacy)]
+    found: Any = [SimpleNamespace(refit=fit, adequacy_but_one=adequacy, candidates=(None,))]
     monkeypatch.setattr(
         again,
         "baseline_at",
@@ -274,16 +273,3 @@ def test_what_a_thorough_search_leads_to_is_judged_by_its_evidence(monkeypatch: 
     found = led(monkeypatch, 0.5, (declared, [lump]), thorough=thorough)
     assert found.found == (soft, lump)
     assert found.chance(soft) == pytest.approx(np.exp(-47.0))
-
-
-def test_where_an_effect_may_be_absent_the_constants_without_it_are_tried_too() -> None:
-    """Two constants and a temperature that one of them makes up for: without it that one is where the data put both."""
-    warmth = EffectParameter("temperature_k", -20.0, 20.0, -60.0, 60.0, "linear", (5.0,), 0.0)
-    hypothesis = SimpleNamespace(
-        constants=2, parameters=[(0, 0)], candidates=(SimpleNamespace(parameters=(warmth,)),)
-    )
-    # 0.1 of what is measured is known, of their sum alone: constant + 2 temperatures = 3
-    precision = np.diag([1.0, 1.0, 1.0]) + 100.0 * np.outer([1.0, 0.0, 2.0], [1.0, 0.0, 2.0])
-    z = np.linalg.solve(precision, 100.0 * np.array([1.0, 0.0, 2.0]) * 3.0)
-    refit: Any = SimpleNamespace(hypothesis=hypothesis, z=z, covariance=np.linalg.inv(precision))
-    np.testing.assert_allclose(again._without_effects(refit), [300.0 / 101.0, 0.0], atol=1e-12)

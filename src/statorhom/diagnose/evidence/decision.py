@@ -10,7 +10,6 @@ import numpy as np
 
 from statorhom.diagnose.evidence.held_out import HeldOut
 from statorhom.diagnose.fits.explanations import ADEQUATE, Explanation
-from statorhom.materials.typical_ranges import Z95
 
 Verdict = Literal["none", "named", "ambiguous", "unknown"]
 MAX_T_P = 0.01
@@ -188,21 +187,6 @@ def within_bounds(explanation: Explanation) -> bool:
             if not low + NEAR_BOUND * (high - low) < value < high - NEAR_BOUND * (high - low):
                 return False
     return True
-
-
-def differs_from_absence(explanation: Explanation) -> bool:
-    """Whether some magnitude's 90 % interval, of each effect, holds no absence of it.
-
-    What may as well be absent only led the constants to where they explain everything.
-    """
-    r = explanation.refit
-    sds = np.sqrt(np.diag(r.covariance))[r.hypothesis.constants :]
-    told = [not candidate.magnitudes for candidate in explanation.candidates]
-    for (i, j), z, sd in zip(r.hypothesis.parameters, r.z[r.hypothesis.constants :], sds, strict=True):
-        candidate = explanation.candidates[i]
-        if (p := candidate.parameters[j]) in candidate.magnitudes:
-            told[i] = told[i] or p.absence is None or abs(p.absence - z) > Z95 * sd
-    return all(told)
 
 
 def others(best: Explanation, explanations: Sequence[Explanation]) -> list[Explanation]:

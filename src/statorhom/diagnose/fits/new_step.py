@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from statorhom.diagnose.fits.explanations import NARROWING, in_valleys, nothing, widened
+from statorhom.diagnose.fits.explanations import NARROWING, by_degrees, in_valleys, nothing, widened
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit, refit
 from statorhom.diagnose.fits.valleys import (
@@ -176,10 +176,22 @@ def _settled(study: StudyModel, found: Refit[Hypothesis], settings: Settings) ->
             error = mesh_error(stage.setup, better.ring, materials, settings.density)
             better = better.with_error(error)
         study = study.with_stages((*study.stages[:-1], better))
-        found = refit(Hypothesis(study), found.z)
+        followed = _followed if number == 0 else refit
+        found = followed(Hypothesis(study), found.z)
         if number > 0 and moved < SAME_HZ:
             break
     return found
+
+
+def _followed(hypothesis: Hypothesis, z: np.ndarray) -> Refit[Hypothesis]:
+    """The optimum that a wide one leads to, straight or by degrees where that does not convince.
+
+    Straight into the narrowest valley from where all modes are off by a per cent, steps are so long that modes lose
+    their partners on the way.
+    """
+    straight = refit(hypothesis, z)
+    gently = None if _is_convincing(straight) else by_degrees(hypothesis, z)
+    return straight if gently is None else min(straight, gently, key=lambda r: r.objective)
 
 
 def _moved(before: Mapping[int, float], after: Mapping[int, float]) -> float:

@@ -9,9 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-import numpy as np
-
-from statorhom.diagnose.fits.explanations import PAIR_GAIN, Explanation, blank, explained, refitted
+from statorhom.diagnose.fits.absence import without
+from statorhom.diagnose.fits.explanations import PAIR_GAIN, Explanation, explained
 
 
 def with_both_needed(pairs: Sequence[Explanation], counts: dict[str, int]) -> list[Explanation]:
@@ -36,12 +35,9 @@ def alone(pair: Explanation, counts: dict[str, int]) -> list[Explanation]:
     pair : two effects at their optimum.
     counts : effect → number of its candidates, over which its prior is spread.
     """
-    hypothesis, z = pair.refit.hypothesis, pair.refit.z
-    found = []
-    for left_out in range(len(hypothesis.candidates)):
-        rest = tuple(c for i, c in enumerate(hypothesis.candidates) if i != left_out)
-        kept = [i != left_out for i, _ in hypothesis.parameters]
-        start = np.r_[z[: hypothesis.constants], z[hypothesis.constants :][kept]]
-        if (again := refitted(blank(hypothesis, rest), start)) is not None:
-            found.append(replace(explained(again, counts), settled=pair.settled))
+    found = [
+        replace(explained(again, counts), settled=pair.settled)
+        for left_out in range(len(pair.candidates))
+        if (again := without(pair.refit, left_out)) is not None
+    ]
     return sorted(found, key=lambda e: -e.log_evidence)

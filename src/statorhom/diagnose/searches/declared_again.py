@@ -10,10 +10,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from statorhom.diagnose.evidence.decision import differs_from_absence
+from statorhom.diagnose.fits.absence import likeliest_without, shown_by_magnitudes
 from statorhom.diagnose.fits.baseline import Baseline, baseline_at
 from statorhom.diagnose.fits.explanations import ADEQUATE, Explanation, blank, nothing, refitted
-from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.searches.sharper import sharpened
 
 DEEPER = 20.0  # of the cost, that another valley must be deeper to be the declared model's
@@ -44,22 +43,5 @@ def _starts(explanation: Explanation) -> list[np.ndarray]:
     """An explanation's constants, and what they would be without the effect where that may as well be absent."""
     r = explanation.refit
     here = r.z[: r.hypothesis.constants]
-    return [here] if differs_from_absence(explanation) else [here, _without_effects(r)]
-
-
-def _without_effects(r: Refit) -> np.ndarray:
-    """The constants that are likeliest if the effects are absent, to first order.
-
-    From where they stand with an effect that a step's materials make up for, taking it away leads to other valleys.
-    """
-    n, covariance = r.hypothesis.constants, r.covariance
-    absent = {
-        n + k: absence
-        for k, (i, j) in enumerate(r.hypothesis.parameters)
-        if (absence := r.hypothesis.candidates[i].parameters[j].absence) is not None
-    }
-    places = list(absent)
-    away = np.array(list(absent.values())) - r.z[places]
-    return np.asarray(
-        r.z[:n] + covariance[:n, places] @ np.linalg.solve(covariance[np.ix_(places, places)], away)
-    )
+    everything = range(len(explanation.candidates))
+    return [here] if all(shown_by_magnitudes(explanation)) else [here, likeliest_without(r, everything)]

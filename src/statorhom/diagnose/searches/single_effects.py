@@ -75,13 +75,18 @@ def single_effects(
     favourites = found.worth_refitting(MOST, WORTH, nothing(base).adequacy < ADEQUATE)
     near, dear = _until_the_last_cheap(list(in_order(base, found, favourites)))
     tried = refits(base, near, counts)
-    if is_poor(base) and not any(e.adequacy_but_one > ADEQUATE for e in tried):
+    if _leaves_rows(nothing(base), *tried):
         starts = [start_of(base, s.candidate, s.start) for s in found.of_every_candidate()]
         tried += [explained(r, counts) for r in on_other_machines(base, starts, _beside_later_steps)]
     tried = refits(base, dear, counts, known=list(best_of_each(tried).values()))
     explanations = from_the_best(base, found, tried, counts)
     explanations += new_names(base, discrete, counts, _worth(explanations))
     return sorted(explanations, key=lambda e: -e.log_evidence)
+
+
+def _leaves_rows(*explanations: Explanation) -> bool:
+    """Whether each of some explanations leaves more than noise, if only one row that another machine would meet."""
+    return all(e.adequacy <= ADEQUATE for e in explanations)
 
 
 def _until_the_last_cheap(trials: Sequence[Trial]) -> tuple[Sequence[Trial], Sequence[Trial]]:
