@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from statorhom.diagnose.report_rows import _shape_spread
+from statorhom.diagnose.report_rows import TOGETHER, _note, _shape_spread
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.library import library
 from statorhom.physics.parameter import EffectParameter, angle
@@ -30,3 +30,16 @@ def test_a_ratio_is_one_of_its_distance_from_what_is_absent() -> None:
 
 def test_what_has_no_place_has_no_shape() -> None:
     assert _shape_spread(Candidate(LUMP, "stack", (MASS,)), MASS, 0.3) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("interval", "told"), [((0.65, 3.84), True), ((1.1, 3.84), False), ((0.2, 0.9), False)]
+)
+def test_a_name_whose_interval_holds_its_absence_says_why(interval: tuple[float, float], told: bool) -> None:
+    strip = Candidate(STRIP, "stack", (RATIO, angle()))
+    note = _note("modulus of a strip", strip, {"stiffness_ratio": interval})
+    assert note == (f"modulus of a strip; {TOGETHER}" if told else "modulus of a strip")
+    assert _note(None, strip, {"stiffness_ratio": interval}) == (TOGETHER if told else None)
+    # a mass is never none at all on its scale
+    lump = Candidate(LUMP, "stack", (MASS, angle()))
+    assert _note("a lump", lump, {"mass_kg": interval}) == "a lump"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -29,6 +29,10 @@ from statorhom.results.diagnosis import (
 Located = Callable[[Explanation, int], Location | PlanLocation | None]
 
 STEP = 1e-3  # of internal coordinates
+TOGETHER = (
+    "the recordings tell what its sizes come to together rather than each of them, "
+    "so that an interval may hold none at all"
+)
 
 
 def effect_results(
@@ -58,11 +62,19 @@ def effect_results(
                 location=location,
                 parameters=parameters,
                 probability=probability,
-                note=effect.words(files).note,
+                note=_note(effect.words(files).note, candidate, intervals),
             )
             for location in places
         ]
     return tuple(found)
+
+
+def _note(note: str | None, candidate: Candidate, intervals: Mapping[str, tuple[float, float]]) -> str | None:
+    """Of an effect, and why it is named where a magnitude's own interval holds its absence."""
+    known = ((p.absent, intervals[p.name]) for p in candidate.magnitudes if p.name in intervals)
+    if any(absent is not None and low <= absent <= high for absent, (low, high) in known):
+        return "; ".join(n for n in (note, TOGETHER) if n)
+    return note
 
 
 def as_declared(explanation: Explanation, located: Located) -> tuple[DeclaredEffect, ...]:
