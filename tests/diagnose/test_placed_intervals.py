@@ -37,9 +37,12 @@ def test_what_has_no_place_has_no_shape() -> None:
 )
 def test_a_name_whose_interval_holds_its_absence_says_why(interval: tuple[float, float], told: bool) -> None:
     strip = Candidate(STRIP, "stack", (RATIO, angle()))
-    note = _note("modulus of a strip", strip, {"stiffness_ratio": interval})
+    intervals = {"stiffness_ratio": interval, "width_deg": (5.0, 20.0)}
+    note = _note("modulus of a strip", strip, intervals)
     assert note == (f"modulus of a strip; {TOGETHER}" if told else "modulus of a strip")
-    assert _note(None, strip, {"stiffness_ratio": interval}) == (TOGETHER if told else None)
+    assert _note(None, strip, intervals) == (TOGETHER if told else None)
+    # of one size nothing is told by what several come to
+    assert _note("modulus of a strip", strip, {"stiffness_ratio": interval}) == "modulus of a strip"
     # a mass is never none at all on its scale
     lump = Candidate(LUMP, "stack", (MASS, angle()))
     assert _note("a lump", lump, {"mass_kg": interval}) == "a lump"

@@ -70,9 +70,11 @@ def effect_results(
 
 
 def _note(note: str | None, candidate: Candidate, intervals: Mapping[str, tuple[float, float]]) -> str | None:
-    """Of an effect, and why it is named where a magnitude's own interval holds its absence."""
+    """Of an effect, and of one of several sizes why it is named though a magnitude's own interval holds its absence."""
     known = ((p.absent, intervals[p.name]) for p in candidate.magnitudes if p.name in intervals)
-    if any(absent is not None and low <= absent <= high for absent, (low, high) in known):
+    if len(intervals) > 1 and any(
+        absent is not None and low <= absent <= high for absent, (low, high) in known
+    ):
         return "; ".join(n for n in (note, TOGETHER) if n)
     return note
 

@@ -16,8 +16,6 @@ from statorhom.physics.candidate import Candidate
 from statorhom.physics.parameter import EffectParameter
 
 WARMTH = EffectParameter("temperature_k", -20.0, 20.0, -60.0, 60.0, "linear", (5.0,), 0.0)
-
-
 UNIT = 40.0 / (2 * Z95)  # kelvin of an internal one
 
 
