@@ -141,7 +141,8 @@ class Hypothesis(AnyHypothesis):
                 if test.support != FREE:
                     held[test.name] = self._partners(stage, test, found, z)
                 else:
-                    shown = counted_at_planes(stage, test, found)
+                    there = acted_materials(self.study, stage, values, actions, test.name)
+                    shown = counted_at_planes(stage, test, found, there)
                     free.append((sought(test, self.modes(test, actions), shown), shown))
         rest = replace(self, held=held, names=names)
         far, near = (rest._with_free(free, reach) for reach in (1.0, NEAR))

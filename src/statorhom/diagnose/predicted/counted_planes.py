@@ -14,8 +14,9 @@ import numpy as np
 
 from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.diagnose.predicted.prediction import PredictedMode
-from statorhom.diagnose.stages.order_profiles import reference_profiles
+from statorhom.diagnose.stages.order_profiles import profiles_at
 from statorhom.diagnose.stages.stage_model import StageModel
+from statorhom.model.affine import Materials
 from statorhom.model.convergence import ModeKey
 from statorhom.model.radial_profile import node_planes, usual_planes
 
@@ -24,7 +25,7 @@ MIXED = 0.003  # relative: modes of one order that lie nearer to each other than
 
 
 def counted_at_planes(
-    stage: StageModel, test: MeasuredTest, modes: Mapping[ModeKey, PredictedMode]
+    stage: StageModel, test: MeasuredTest, modes: Mapping[ModeKey, PredictedMode], materials: Materials
 ) -> dict[ModeKey, PredictedMode]:
     """The same modes with the counts of node planes that a test may find.
 
@@ -32,60 +33,50 @@ def counted_at_planes(
     ----------
     stage, test : whose planes.
     modes : predicted ones.
+    materials : with which they were predicted: a mode of mixed motion is counted otherwise at others.
     """
-    counts = (
-        _counts_anywhere(stage) if test.shapes is None else _counts(stage, tuple(test.shapes.z_m.tolist()))
-    )
-    return {key: replace(mode, shown=counts.get(key, ())) for key, mode in modes.items()}
+    known = test.shapes is not None
+    planes = tuple(sorted(test.shapes.z_m.tolist())) if test.shapes is not None else _usual(stage)
+    places = {key: None if mode.slope is not None else mode.mode.place for key, mode in modes.items()}
+    profiles = profiles_at(stage, planes, materials, places)
+    if not profiles:
+        return dict(modes)
+    along = np.array(list(profiles.values())).T
+    counts = _possible(along) if known else _with_fewer_planes(along)
+    mixed = _mixed([modes[key] for key in profiles])
+    shown = {}
+    for key, own, is_mixed in zip(profiles, counts, mixed, strict=True):
+        first = () if known else (key[1],)
+        shown[key] = (*first, *own, *(range(len(planes)) if known and is_mixed else ()))
+    return {key: replace(mode, shown=shown.get(key, ())) for key, mode in modes.items()}
 
 
-def _counts(stage: StageModel, z_m: tuple[float, ...]) -> Mapping[ModeKey, tuple[int, ...]]:
-    """Of every named mode of the reference, the likeliest first."""
-    return stage.memory.once(("counted planes", z_m), lambda: _counted(stage, z_m))
+def _usual(stage: StageModel) -> tuple[float, ...]:
+    return tuple(usual_planes(stage.model.mesh.length).tolist())
 
 
-def _counted(stage: StageModel, z_m: tuple[float, ...]) -> dict[ModeKey, tuple[int, ...]]:
-    profiles = reference_profiles(stage, tuple(sorted(z_m)))
-    found = {key: _possible(along[:, None]) for key, along in profiles.items()}
-    return {
-        key: (*counts, *range(len(z_m))) if _is_mixed(stage, key) else counts for key, counts in found.items()
-    }
-
-
-def _counts_anywhere(stage: StageModel) -> Mapping[ModeKey, tuple[int, ...]]:
-    """The same at planes that nobody knows."""
-    z_m = tuple(usual_planes(stage.model.mesh.length).tolist())
-
-    def counted() -> dict[ModeKey, tuple[int, ...]]:
-        profiles = reference_profiles(stage, z_m)
-        return {key: (key[1], *_with_fewer_planes(along)) for key, along in profiles.items()}
-
-    return stage.memory.once(("counted anywhere",), counted)
-
-
-def _with_fewer_planes(along: np.ndarray) -> tuple[int, ...]:
-    """Counts of a profile (planes,) without any one of its planes and that opposite to it; ends are always measured."""
+def _with_fewer_planes(along: np.ndarray) -> list[tuple[int, ...]]:
+    """Counts of profiles (planes, k) without any one plane and that opposite to it; ends are always measured."""
     planes = len(along)
     rest = [[i for i in range(planes) if i not in (k, planes - 1 - k)] for k in range(1, planes // 2)]
-    return tuple(dict.fromkeys(int(node_planes(along[used, None])[0]) for used in rest))
+    return _each([node_planes(along[used]) for used in rest])
 
 
-def _is_mixed(stage: StageModel, key: ModeKey) -> bool:
+def _mixed(modes: list[PredictedMode]) -> np.ndarray:
     """Whether another count of node planes of the same order lies so near that what is measured is a sum of both."""
-    modes = stage.reference_keys
-    own = modes[key].frequency_hz
-    return any(
-        its[0] == key[0] and its[1] != key[1] and abs(np.log(mode.frequency_hz / own)) < MIXED
-        for its, mode in modes.items()
-    )
+    names, log_f = np.array([mode.key[:2] for mode in modes]), np.array([mode.log_f for mode in modes])
+    same = names[:, None, 0] == names[None, :, 0]
+    other = names[:, None, 1] != names[None, :, 1]
+    return np.asarray((same & other & (np.abs(log_f[:, None] - log_f) < MIXED)).any(axis=1))
 
 
-def _possible(along: np.ndarray) -> tuple[int, ...]:
-    """Counts of a profile (planes, 1) with planes near a node left out, with faint ones left out, and with all."""
-    least = FAINT * float(np.abs(along).max())
-    counts = (
-        node_planes(along)[0],
-        node_planes(along, least)[0],
-        np.count_nonzero(np.diff(np.sign(along[:, 0]))),
-    )
-    return tuple(dict.fromkeys(int(n) for n in counts))
+def _possible(along: np.ndarray) -> list[tuple[int, ...]]:
+    """Counts of profiles (planes, k) with planes near a node left out, with faint ones left out, and with all."""
+    least = FAINT * np.abs(along).max(axis=0)
+    every = np.count_nonzero(np.diff(np.sign(along), axis=0), axis=0)
+    return _each([node_planes(along), node_planes(along, least), every])
+
+
+def _each(counts: list[np.ndarray]) -> list[tuple[int, ...]]:
+    """Of every profile the counts, the likeliest first, each once."""
+    return [tuple(dict.fromkeys(own)) for own in zip(*(n.tolist() for n in counts), strict=True)]

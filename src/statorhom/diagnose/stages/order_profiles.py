@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from statorhom.diagnose.bases.trained_basis import TrainedBasis
 from statorhom.diagnose.stages.stage_model import StageModel
+from statorhom.model.affine import Materials
 from statorhom.model.broken.named_response import NearestPair
 from statorhom.model.broken.solve import BrokenModes
 from statorhom.model.convergence import ModeKey
@@ -23,14 +24,57 @@ def reference_profiles(stage: StageModel, heights_m: tuple[float, ...]) -> Mappi
 
 
 def _profiles(stage: StageModel, heights_m: tuple[float, ...]) -> dict[ModeKey, FloatArray]:
-    profile = radial_profile(stage.model.mesh, np.array(heights_m))
-    solved = stage.solve(stage.reference)
-    found = {}
-    for key, mode in stage.reference_keys.items():
-        problem, vectors = stage.ring.problems[mode.problem], solved.vectors[mode.problem]
-        shape = problem.space.expand(problem.basis @ vectors[:, [mode.column]])
-        found[key] = profile.orders(problem.space, shape)[:, 0]
+    places = {key: mode.place for key, mode in stage.reference_keys.items()}
+    return _of_places(stage, heights_m, stage.reference, places)
+
+
+def profiles_at(
+    stage: StageModel,
+    heights_m: tuple[float, ...],
+    materials: Materials,
+    places: Mapping[ModeKey, tuple[int, int] | None],
+) -> dict[ModeKey, FloatArray]:
+    """The same of modes at other materials.
+
+    Parameters
+    ----------
+    places : of the modes (`StatorMode.place`); None for one of another basis, which the reference's own stands for.
+    """
+    found = _of_places(stage, heights_m, materials, {k: place for k, place in places.items() if place})
+    other = [key for key in places if key not in found]
+    if other:
+        known = reference_profiles(stage, heights_m)
+        found |= {key: known[key] for key in other if key in known}
     return found
+
+
+def _of_places(
+    stage: StageModel,
+    heights_m: tuple[float, ...],
+    materials: Materials,
+    places: Mapping[ModeKey, tuple[int, int]],
+) -> dict[ModeKey, FloatArray]:
+    if not places:
+        return {}
+    solved = stage.solve(materials, frozenset(problem for problem, _ in places.values()))
+    along = _of_basis(stage, heights_m)
+    return {
+        key: along[problem] @ solved.vectors[problem][:, column]
+        for key, (problem, column) in places.items()
+        if column < solved.vectors[problem].shape[1]
+    }
+
+
+def _of_basis(stage: StageModel, heights_m: tuple[float, ...]) -> list[FloatArray]:
+    """Amplitudes (heights, k) of the basis's vectors, per problem; kept until the basis grows."""
+    problems = stage.ring.problems
+    sizes = tuple(p.basis.shape[1] for p in problems)
+
+    def evaluated() -> list[FloatArray]:
+        profile = radial_profile(stage.model.mesh, np.array(heights_m))
+        return [profile.orders(p.space, p.space.expand(p.basis)) for p in problems]
+
+    return stage.memory.once(("profiles of the basis", heights_m, sizes), evaluated)
 
 
 def broken_profile(
