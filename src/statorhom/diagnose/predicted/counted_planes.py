@@ -46,7 +46,7 @@ def counted_at_planes(
     mixed = _mixed([modes[key] for key in profiles])
     shown = {}
     for key, own, is_mixed in zip(profiles, counts, mixed, strict=True):
-        first = () if known else (key[1],)
+        first = () if known or (n := modes[key].mode.axial) is None else (n,)
         shown[key] = (*first, *own, *(range(len(planes)) if known and is_mixed else ()))
     return {key: replace(mode, shown=shown.get(key, ())) for key, mode in modes.items()}
 
@@ -64,7 +64,10 @@ def _with_fewer_planes(along: np.ndarray) -> list[tuple[int, ...]]:
 
 def _mixed(modes: list[PredictedMode]) -> np.ndarray:
     """Whether another count of node planes of the same order lies so near that what is measured is a sum of both."""
-    names, log_f = np.array([mode.key[:2] for mode in modes]), np.array([mode.log_f for mode in modes])
+    names, log_f = (
+        np.array([(mode.order, mode.axial) for mode in modes]),
+        np.array([mode.log_f for mode in modes]),
+    )
     same = names[:, None, 0] == names[None, :, 0]
     other = names[:, None, 1] != names[None, :, 1]
     return np.asarray((same & other & (np.abs(log_f[:, None] - log_f) < MIXED)).any(axis=1))

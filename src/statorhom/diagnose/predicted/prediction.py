@@ -14,6 +14,7 @@ from statorhom.diagnose.stages.broken_response import Response, responses
 from statorhom.diagnose.stages.dimension_response import dimension_shift
 from statorhom.diagnose.stages.order_profiles import reference_profiles
 from statorhom.diagnose.stages.rated_modes import rated_modes
+from statorhom.diagnose.stages.same_shapes import reference_names
 from statorhom.diagnose.stages.stage_model import StageModel
 from statorhom.diagnose.stages.study_model import StudyModel
 from statorhom.identify.residuals.stage_problem import NamedByMode, seen
@@ -141,8 +142,8 @@ def predicted(
     Parameters
     ----------
     mark : one entry per action; equal ones say that it is the same.
-    names : that the modes had where they were paired (`statorhom.diagnose.predicted.followed_modes`); their own by
-        default.
+    names : that the modes had where they were paired (`statorhom.diagnose.predicted.followed_modes`); the
+        reference's by default.
     """
     materials = acted_materials(study, stage, values, actions, test)
     here = [a for a in actions if a.touches(stage.name, test)]
@@ -241,7 +242,8 @@ def _base(
     laws = next((action.modulus_at for action in actions if action.modulus_at), None)
     problems = _problems(names)
     free = rated_modes(stage, materials, laws, problems) if laws else stage.solve(materials, problems).modes
-    return {key: _Symmetric(mode, log(mode.frequency_hz)) for key, mode in named(free, names).items()}
+    found = reference_names(stage, stage.solve(materials), free) if names is None else named(free, names)
+    return {key: _Symmetric(mode, log(mode.frequency_hz)) for key, mode in found.items()}
 
 
 def _problems(names: Names | None) -> frozenset[int] | None:

@@ -10,9 +10,9 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
 from statorhom.diagnose.bases.ring_basis import RingModes
+from statorhom.diagnose.stages.same_shapes import same_shapes
 from statorhom.diagnose.stages.stage_model import StageModel
 from statorhom.model.affine import Materials
 from statorhom.model.stator_mode import StatorMode
@@ -27,7 +27,6 @@ RATE_HZ = (
     15000.0,
 )  # between which a modulus that follows the frequency is interpolated
 AS_DECLARED = 1  # of these: where such a modulus has its declared value
-ALIKE = 0.25  # MAC below which no mode of the next table is the same one
 
 Table = Mapping[tuple[int, int], StatorMode]  # place at declared moduli → the mode of a solution
 
@@ -84,9 +83,7 @@ def continued(table: Table, here: RingModes, there: RingModes, materials: Materi
         places = [place for place in table if place[0] == number]
         modes = [mode for mode in there.modes if mode.problem == number]
         mass = here.problems[number].mass_matrix(materials)
-        own = here.vectors[number][:, [table[place].column for place in places]]
-        alike = np.square(own.T @ mass @ there.vectors[number][:, [mode.column for mode in modes]])
-        rows, columns = linear_sum_assignment(alike, maximize=True)
-        pairs = zip(rows.tolist(), columns.tolist(), strict=True)
-        found |= {places[i]: modes[j] for i, j in pairs if alike[i, j] > ALIKE}
+        own = here.vectors[number][:, [table[place].column for place in places]].T @ mass
+        others = there.vectors[number][:, [mode.column for mode in modes]]
+        found |= {places[i]: modes[j] for i, j in same_shapes(own, others)}
     return found
