@@ -16,7 +16,7 @@ from statorhom.results.diagnosis import RuleRow
 
 
 def rule_rows(e: Evidence, *, pair: bool) -> tuple[RuleRow, ...]:
-    """All rules of `statorhom.diagnose.evidence.decision.decide`; an effect is named where none fails that asks anything.
+    """All rules of `statorhom.diagnose.evidence.decision.decide`; an effect is named where none that asks fails.
 
     Parameters
     ----------
