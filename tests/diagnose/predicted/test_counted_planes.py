@@ -43,6 +43,15 @@ def test_a_faint_plane_leaves_both_counts_possible() -> None:
     assert _possible(np.array([[1.0], [-0.05], [1.0]])) == [(0, 2)]
 
 
+def test_a_shape_that_hardly_crosses_zero_may_not_do_so_on_another_mesh() -> None:
+    """A (3, 2) of a table whose middle the diagnosing mesh moves by +1 % of the ends was named a mistaken mode."""
+    half = [1.0, 0.65, 0.32, 0.11]
+    assert _with_fewer_planes(np.array([*half, 0.01, *half[::-1]])[:, None]) == [(0, 2)]
+    assert _with_fewer_planes(np.array([*half, 0.2, *half[::-1]])[:, None]) == [(0,)]
+    assert _possible(np.array([-1.0, -0.02, 0.02, 1.0])[:, None]) == [(1, 3)]
+    assert _possible(np.array([-1.0, -0.3, 0.3, 1.0])[:, None]) == [(1,)]
+
+
 def predictions(stage: StageModel, materials: Materials) -> dict[Any, PredictedMode]:
     return {
         key: PredictedMode(key, mode, float(np.log(mode.frequency_hz)), 0j, 1e-3)

@@ -2,7 +2,8 @@
 
 Four planes show three node planes at most: a mode with four of them is counted with none or two, and stands in the
 table like that. Predicted modes are called by what the same planes show of them. Where nobody says which planes a table
-was counted at, one between the ends may be missing, and with it two nodes.
+was counted at, one between the ends may be missing, and with it two nodes. A shape that hardly crosses zero, or hardly
+does not, may do the other on a finer mesh.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from statorhom.model.convergence import ModeKey
 from statorhom.model.radial_profile import node_planes, usual_planes
 
 FAINT = 0.25  # of the largest amplitude, below which a plane may be taken for one near a node
+OPEN = 0.15  # of the largest amplitude: by which the mesh may leave open how far a shape bends
 MIXED = 0.003  # relative: modes of one order that lie nearer to each other than this may be mixed in any way
 
 
@@ -59,7 +61,7 @@ def _with_fewer_planes(along: np.ndarray) -> list[tuple[int, ...]]:
     """Counts of profiles (planes, k) without any one plane and that opposite to it; ends are always measured."""
     planes = len(along)
     rest = [[i for i in range(planes) if i not in (k, planes - 1 - k)] for k in range(1, planes // 2)]
-    return _each([node_planes(along[used]) for used in rest])
+    return _each([*(node_planes(along[used]) for used in rest), *_bent(along)])
 
 
 def _mixed(modes: list[PredictedMode]) -> np.ndarray:
@@ -77,7 +79,15 @@ def _possible(along: np.ndarray) -> list[tuple[int, ...]]:
     """Counts of profiles (planes, k) with planes near a node left out, with faint ones left out, and with all."""
     least = FAINT * np.abs(along).max(axis=0)
     every = np.count_nonzero(np.diff(np.sign(along), axis=0), axis=0)
-    return _each([node_planes(along), node_planes(along, least), every])
+    return _each([node_planes(along), node_planes(along, least), every, *_bent(along)])
+
+
+def _bent(along: np.ndarray) -> list[np.ndarray]:
+    """Counts of profiles (planes, k) that bend a little more and a little less, each in its own symmetry."""
+    halves = np.sign(np.arange(len(along)) - (len(along) - 1) / 2)[:, None]
+    even = along[:1] * along[-1:] > 0
+    more = OPEN * np.abs(along).max(axis=0) * np.where(even, 1.0, halves)
+    return [node_planes(along + more), node_planes(along - more)]
 
 
 def _each(counts: list[np.ndarray]) -> list[tuple[int, ...]]:
