@@ -45,8 +45,12 @@ def test_each_rule_fails_alone(change: dict[str, object], verdict: str) -> None:
 def test_what_leaves_more_than_right_ones_do_has_to_be_far_ahead_of_a_discrepancy() -> None:
     """Of two tethers that were called a suspension one left a misfit of a chance of 0.15, and led chance by 12."""
     ahead = replace(GOOD, over_discrepancy=12.0)
-    assert decide(ahead) == "named"
+    assert decide(replace(ahead, adequacy=0.8)) == "named"
+    assert decide(replace(ahead, adequacy=0.8, over_discrepancy=3.1)) == "named"
     assert decide(replace(ahead, adequacy=0.15)) == "unknown"
+    # in between the more is asked, the more is left: a lump led chance by 5.4 where patches were (57085, 0.25)
+    assert decide(replace(ahead, adequacy=0.5)) == "named"
+    assert decide(replace(ahead, adequacy=0.4)) == "unknown"
     assert decide(replace(ahead, adequacy=0.15, over_discrepancy=20.1)) == "named"
     # rivals that explain it as well are told apart first
     assert decide(replace(ahead, adequacy=0.15, over_others=1.0)) == "ambiguous"
