@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from statorhom.diagnose.evidence.decision import AS_USUAL
+from statorhom.diagnose.evidence.decision import UNUSUAL
 from statorhom.diagnose.fits.explanations import Explanation, refitted
 from statorhom.diagnose.fits.importance import Box, draws_of
 from statorhom.diagnose.fits.profile import Profile
@@ -31,7 +31,7 @@ def in_its_deepest_valley(found: Sequence[Explanation], seed: int) -> list[Expla
     found : the best first.
     seed : of the draws.
     """
-    if not found or found[0].adequacy_but_one > AS_USUAL or not _is_sought(found[0]):
+    if not found or found[0].adequacy_but_one > UNUSUAL or not _is_sought(found[0]):
         return list(found)
     lead, *others = found
     best = lead.refit
