@@ -22,7 +22,7 @@ OVER_ADEQUATE, FAR_OVER_OTHERS = 8.0, 5.0
 FAR_OVER_NOTHING = 20.0
 # Chances of a misfit between which an explanation leaves more and more of what right ones leave. Standard deviations
 # hold all that mesh, scatter and foot may do, so that right ones leave less than these say: of 127 right names of
-# development cases 121 have more than the lower one, and of 21 later ones in tables 10 more than the upper one, of
+# development cases 121 have more than the lower one, and of 21 later ones in tables 11 more than the upper one, of
 # 11 false ones of something in no library none. Where standard deviations are not wide, as a tube's, a fifth of the
 # right ones has less than the lower one, and is named where nothing else comes near.
 UNUSUAL, AS_USUAL = 0.2, 0.75
