@@ -20,7 +20,7 @@ from statorhom.diagnose.stages.study_model import StudyModel
 from statorhom.identify.residuals.stage_problem import NamedByMode, seen
 from statorhom.model.affine import Materials, hooke_coefficients
 from statorhom.model.broken.named_response import Way
-from statorhom.model.convergence import ModeKey
+from statorhom.model.convergence import ModeKey, mode_keys
 from statorhom.model.stator_mode import StatorMode
 from statorhom.physics.action import Action
 
@@ -143,7 +143,7 @@ def predicted(
     ----------
     mark : one entry per action; equal ones say that it is the same.
     names : that the modes had where they were paired (`statorhom.diagnose.predicted.followed_modes`); the
-        reference's by default.
+        reference's by default, where shapes were measured, or their own.
     """
     materials = acted_materials(study, stage, values, actions, test)
     here = [a for a in actions if a.touches(stage.name, test)]
@@ -242,7 +242,13 @@ def _base(
     laws = next((action.modulus_at for action in actions if action.modulus_at), None)
     problems = _problems(names)
     free = rated_modes(stage, materials, laws, problems) if laws else stage.solve(materials, problems).modes
-    found = reference_names(stage, stage.solve(materials), free) if names is None else named(free, names)
+    if names is not None:
+        found = named(free, names)
+    elif stage.heights_m:
+        found = reference_names(stage, stage.solve(materials), free)
+    else:
+        # of a table the names are all that is known
+        found = mode_keys(free)
     return {key: _Symmetric(mode, log(mode.frequency_hz)) for key, mode in found.items()}
 
 
