@@ -9,7 +9,8 @@ from small_stage import stage_of
 
 from statorhom.diagnose.stages.same_shapes import reference_names, same_shapes
 from statorhom.model.affine import Materials
-from statorhom.model.convergence import mode_keys
+from statorhom.model.convergence import ModeKey, mode_keys
+from statorhom.model.stator_mode import StatorMode
 
 STAGE = stage_of(("stack", "wound"), 12000.0)
 
@@ -39,11 +40,11 @@ def test_of_a_softer_winding_a_mode_keeps_the_name_of_its_shape() -> None:
         assert likeness(key, found[key]) >= likeness(key, own.get(key))
 
 
-def likeness(key: tuple[int, int, int], mode: object) -> float:
+def likeness(key: ModeKey, mode: StatorMode | None) -> float:
     """MAC of a mode of the softer winding with the reference's of a name."""
     if mode is None:
         return 0.0
-    number, column = mode.place  # type: ignore[attr-defined]
+    number, column = mode.place
     before = STAGE.reference_keys[key]
     if before.problem != number:
         return 0.0

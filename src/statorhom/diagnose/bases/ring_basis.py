@@ -106,6 +106,11 @@ class RingBasis:
     problems: tuple[RingProblem, ...]
     highest_hz: float
 
+    @property
+    def sizes(self) -> tuple[int, ...]:
+        """Vectors of every problem: what was made of a basis holds as long as these stay."""
+        return tuple(p.basis.shape[1] for p in self.problems)
+
     def solve(self, materials: Materials, numbers: Container[int] | None = None) -> RingModes:
         """Modes of the band.
 

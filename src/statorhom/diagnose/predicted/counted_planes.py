@@ -8,7 +8,7 @@ does not, may do the other on a finer mesh.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -19,7 +19,7 @@ from statorhom.diagnose.stages.order_profiles import profiles_at
 from statorhom.diagnose.stages.stage_model import StageModel
 from statorhom.model.affine import Materials
 from statorhom.model.convergence import ModeKey
-from statorhom.model.radial_profile import node_planes, usual_planes
+from statorhom.model.radial_profile import node_planes
 
 FAINT = 0.25  # of the largest amplitude, below which a plane may be taken for one near a node
 OPEN = 0.15  # of the largest amplitude: by which the mesh may leave open how far a shape bends
@@ -37,24 +37,27 @@ def counted_at_planes(
     modes : predicted ones.
     materials : with which they were predicted: a mode of mixed motion is counted otherwise at others.
     """
-    known = test.shapes is not None
-    planes = tuple(sorted(test.shapes.z_m.tolist())) if test.shapes is not None else _usual(stage)
+    planes = None if test.shapes is None else tuple(sorted(test.shapes.z_m.tolist()))
     places = {key: None if mode.slope is not None else mode.mode.place for key, mode in modes.items()}
     profiles = profiles_at(stage, planes, materials, places)
     if not profiles:
         return dict(modes)
-    along = np.array(list(profiles.values())).T
-    counts = _possible(along) if known else _with_fewer_planes(along)
-    mixed = _mixed([modes[key] for key in profiles])
-    shown = {}
-    for key, own, is_mixed in zip(profiles, counts, mixed, strict=True):
-        first = () if known or (n := modes[key].mode.axial) is None else (n,)
-        shown[key] = (*first, *own, *(range(len(planes)) if known and is_mixed else ()))
+    along, seen = np.array(list(profiles.values())).T, [modes[key] for key in profiles]
+    counts = _anywhere(along, seen) if planes is None else _at_known(along, seen)
+    shown = dict(zip(profiles, counts, strict=True))
     return {key: replace(mode, shown=shown.get(key, ())) for key, mode in modes.items()}
 
 
-def _usual(stage: StageModel) -> tuple[float, ...]:
-    return tuple(usual_planes(stage.model.mesh.length).tolist())
+def _at_known(along: np.ndarray, modes: Sequence[PredictedMode]) -> list[tuple[int, ...]]:
+    """Counts of modes by their profiles (planes, modes), any where another one lies near."""
+    own, mixed, every = _possible(along), _mixed(modes), range(len(along))
+    return [(*counts, *every) if is_mixed else counts for counts, is_mixed in zip(own, mixed, strict=True)]
+
+
+def _anywhere(along: np.ndarray, modes: Sequence[PredictedMode]) -> list[tuple[int, ...]]:
+    """The same at planes that nobody knows: a mode's own name, and what fewer planes show."""
+    counts = zip(modes, _with_fewer_planes(along), strict=True)
+    return [own if mode.axial is None else (mode.axial, *own) for mode, own in counts]
 
 
 def _with_fewer_planes(along: np.ndarray) -> list[tuple[int, ...]]:
@@ -64,7 +67,7 @@ def _with_fewer_planes(along: np.ndarray) -> list[tuple[int, ...]]:
     return _each([*(node_planes(along[used]) for used in rest), *_bent(along)])
 
 
-def _mixed(modes: list[PredictedMode]) -> np.ndarray:
+def _mixed(modes: Sequence[PredictedMode]) -> np.ndarray:
     """Whether another count of node planes of the same order lies so near that what is measured is a sum of both."""
     names, log_f = (
         np.array([(mode.order, mode.axial) for mode in modes]),

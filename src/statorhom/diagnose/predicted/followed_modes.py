@@ -1,9 +1,9 @@
 """Modes followed from where they were paired: what is predicted of them changes continuously with the constants.
 
 A mode's own name changes at a point: its rank when another mode of its family becomes visible, its node planes when
-their number is doubtful; so each keeps the one that it has at the reference (`statorhom.diagnose.stages.same_shapes`).
-Its place in its harmonic problem does not, for modes of one problem avoid to cross. But where
-two of them come near each other they exchange their shapes; then the name is what stays.
+their number is doubtful. Its place in its harmonic problem does not, for modes of one problem avoid to cross. But where
+two of them come near each other they exchange their shapes; then the name is what stays. That is the name that it had
+where it was paired; what it is known by may be another one, of the reference (`statorhom.diagnose.stages.same_shapes`).
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from statorhom.model.stator_mode import StatorMode
 
 
 class Followed(NamedTuple):
-    """What is followed of a mode.
+    """Names of a mode where it was paired.
 
     Parameters
     ----------
-    key : its name at the reference.
-    family : that it had where it was paired.
+    key : that it is known by.
+    family : its own there.
     """
 
     key: ModeKey

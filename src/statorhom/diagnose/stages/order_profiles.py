@@ -18,19 +18,26 @@ from statorhom.model.radial_profile import radial_profile
 FloatArray = npt.NDArray[np.float64]
 
 
-def reference_profiles(stage: StageModel, heights_m: tuple[float, ...]) -> Mapping[ModeKey, FloatArray]:
-    """Profiles (heights,) of the symmetric stator's named modes at the reference, over ascending heights; kept."""
+def reference_profiles(
+    stage: StageModel, heights_m: tuple[float, ...] | None
+) -> Mapping[ModeKey, FloatArray]:
+    """Profiles (heights,) of the symmetric stator's named modes at the reference; kept.
+
+    Parameters
+    ----------
+    heights_m : ascending; None for those over the whole core that a basis knows (`RingProblem.profile`).
+    """
     return stage.memory.once(("profiles", heights_m), lambda: _profiles(stage, heights_m))
 
 
-def _profiles(stage: StageModel, heights_m: tuple[float, ...]) -> dict[ModeKey, FloatArray]:
+def _profiles(stage: StageModel, heights_m: tuple[float, ...] | None) -> dict[ModeKey, FloatArray]:
     places = {key: mode.place for key, mode in stage.reference_keys.items()}
     return _of_places(stage, heights_m, stage.reference, places)
 
 
 def profiles_at(
     stage: StageModel,
-    heights_m: tuple[float, ...],
+    heights_m: tuple[float, ...] | None,
     materials: Materials,
     places: Mapping[ModeKey, tuple[int, int] | None],
 ) -> dict[ModeKey, FloatArray]:
@@ -38,6 +45,7 @@ def profiles_at(
 
     Parameters
     ----------
+    heights_m : as of `reference_profiles`.
     places : of the modes (`StatorMode.place`); None for one of another basis, which the reference's own stands for.
     """
     found = _of_places(stage, heights_m, materials, {k: place for k, place in places.items() if place})
@@ -50,7 +58,7 @@ def profiles_at(
 
 def _of_places(
     stage: StageModel,
-    heights_m: tuple[float, ...],
+    heights_m: tuple[float, ...] | None,
     materials: Materials,
     places: Mapping[ModeKey, tuple[int, int]],
 ) -> dict[ModeKey, FloatArray]:
@@ -65,16 +73,17 @@ def _of_places(
     }
 
 
-def _of_basis(stage: StageModel, heights_m: tuple[float, ...]) -> list[FloatArray]:
+def _of_basis(stage: StageModel, heights_m: tuple[float, ...] | None) -> list[FloatArray]:
     """Amplitudes (heights, k) of the basis's vectors, per problem; kept until the basis grows."""
     problems = stage.ring.problems
-    sizes = tuple(p.basis.shape[1] for p in problems)
+    if heights_m is None:
+        return [p.profile for p in problems]
 
     def evaluated() -> list[FloatArray]:
         profile = radial_profile(stage.model.mesh, np.array(heights_m))
         return [profile.orders(p.space, p.space.expand(p.basis)) for p in problems]
 
-    return stage.memory.once(("profiles of the basis", heights_m, sizes), evaluated)
+    return stage.memory.once(("profiles of the basis", heights_m, stage.ring.sizes), evaluated)
 
 
 def broken_profile(

@@ -50,9 +50,9 @@ def reference_names(
         return own
     names = _known(stage, solved, list(own.values()))
     known = set(names.values())
-    for mode in own.values():
-        if mode.place not in names and mode.family is not None:
-            names[mode.place] = next(k for n in count() if (k := (*mode.family, n)) not in known)
+    for (order, axial, _), mode in own.items():
+        if mode.place not in names:
+            names[mode.place] = next(k for n in count() if (k := (order, axial, n)) not in known)
             known.add(names[mode.place])
     return {names[mode.place]: mode for mode in own.values()}
 
@@ -73,7 +73,6 @@ def _known(
 
 def _weighted(stage: StageModel) -> Mapping[int, tuple[list[ModeKey], np.ndarray]]:
     """Names and shapes times mass (i, k) of the reference's modes, per problem; kept until the basis grows."""
-    sizes = tuple(p.basis.shape[1] for p in stage.ring.problems)
 
     def made() -> dict[int, tuple[list[ModeKey], np.ndarray]]:
         vectors, found = stage.solve(stage.reference).vectors, {}
@@ -84,5 +83,7 @@ def _weighted(stage: StageModel) -> Mapping[int, tuple[list[ModeKey], np.ndarray
                 found[number] = [k for k, _ in places], vectors[number][:, [c for _, c in places]].T @ mass
         return found
 
-    known: Mapping[int, tuple[list[ModeKey], np.ndarray]] = stage.memory.once(("shapes", sizes), made)
+    known: Mapping[int, tuple[list[ModeKey], np.ndarray]] = stage.memory.once(
+        ("shapes", stage.ring.sizes), made
+    )
     return known
