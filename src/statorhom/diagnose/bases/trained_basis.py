@@ -54,7 +54,8 @@ class TrainedBasis:
         columns = {
             key: replace(c, eigenvalue=c.eigenvalue * factors[key] ** 2) for key, c in self.columns.items()
         }
-        return TrainedBasis(basis, columns)
+        # the same vectors move alike
+        return TrainedBasis(basis, columns, self.amplitudes)
 
     def trained(
         self,

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from statorhom.diagnose.bases.shown_nodes import shown_nodes
-from statorhom.diagnose.stages.order_profiles import broken_profile
+from statorhom.diagnose.stages.order_profiles import broken_profile, radial_motion
 from statorhom.diagnose.stages.stage_model import StageModel
 from statorhom.model.broken.change import Change
-from statorhom.model.broken.named_response import Response, nearest_pair, response_of
+from statorhom.model.broken.named_response import Response, nearest_pair, response_of, seen_shares
 from statorhom.model.broken.solve import solve_broken
 from statorhom.model.convergence import ModeKey
 from statorhom.physics.action import Training
@@ -29,12 +29,13 @@ def responses(
     """
     trained = stage.trained(trainings)
     modes = solve_broken(trained.basis, changes, tolerance=None)
+    shares = seen_shares(modes, trained.columns, radial_motion(stage, trained))
     shown = shown_nodes(modes, trained.columns, stage.reference_keys)
     found = {}
     for key, place in trained.columns.items():
         pair = nearest_pair(modes, place)
         if pair is not None:
             profile = broken_profile(stage, trained, modes, key, pair) if stage.heights_m else None
-            response = response_of(modes, place, pair)
+            response = response_of(modes, place, pair, shares[key])
             found[key] = replace(response, other_axial=shown.get(key), profile=profile)
     return found

@@ -119,3 +119,18 @@ def _amplitudes(stage: StageModel, trained: TrainedBasis, order: int) -> tuple[F
         trained.amplitudes[place] = cosine, sine
     known: tuple[FloatArray, FloatArray] = trained.amplitudes[place]
     return known
+
+
+def radial_motion(stage: StageModel, trained: TrainedBasis) -> FloatArray:
+    """(coordinates,) mean square radial motion of the surface, of its own order, by a unit of every coordinate."""
+    if None not in trained.amplitudes:
+        basis, profile = trained.basis, radial_profile(stage.model.mesh)
+        squares = np.zeros(len(basis.values))
+        for problem, families in zip(basis.problems, basis.places, strict=True):
+            space = problem.sector.space
+            along = profile.orders(space, space.expand(problem.vectors))
+            for own in families.values():
+                squares[own] = np.mean(along**2, axis=0)
+        trained.amplitudes[None] = squares
+    known: FloatArray = trained.amplitudes[None]
+    return known

@@ -16,6 +16,7 @@ import numpy as np
 SURE = 2  # power: a mode of which six tenths are one name's and four another's is called by the first 7 times of 10
 LEAST = 0.02  # chance, below which a mode is not called by a name, nor are several of them at once
 DOUBT = 1e-4  # share of another name that every mode has: nothing is quite certain
+MISSED = 0.1  # chance that a line is not found: of three that are called alike any two may be a doublet's
 MOST = 5  # modes that may be called by one name
 
 
@@ -33,21 +34,22 @@ class Called:
     chance: float
 
 
-def ways_of(parts: np.ndarray, near: np.ndarray, usual: np.ndarray) -> list[Called]:
+def ways_of(shares: np.ndarray, near: np.ndarray, usual: np.ndarray) -> list[Called]:
     """Ways in which broken modes may be called by a name, the usual one first; their chances add up to one.
 
     Parameters
     ----------
-    parts : (k, modes) parts of the name's k modes in all broken ones, of which the squares are shares.
+    shares : (modes,) of the name in every broken mode.
     near : numbers of the broken modes that are near enough.
-    usual : numbers of those that have most of it.
+    usual : (k,) numbers of those that have most of it, as many as it has modes.
     """
-    chances = chances_of(np.sum(parts[:, near] ** 2, axis=0))
+    chances = chances_of(shares[near])
     likeliest = near[np.argsort(-chances)[:MOST]]
     able = {int(n): float(c) for n, c in zip(near, chances, strict=True) if n in likeliest and c > LEAST}
     able |= {int(n): able.get(int(n), LEAST) for n in usual}
-    found = {tuple(sorted(usual.tolist())): _together(able, usual.tolist())}
-    found |= {tuple(sorted(some)): _together(able, some) for some in _some(able, len(parts))}
+    most = len(usual)
+    ways = [tuple(sorted(usual.tolist())), *_some(able, most)]
+    found = {some: _together(able, some, MISSED if len(some) == most else 0.0) for some in ways}
     whole = sum(found.values())
     kept = [(some, chance / whole) for some, chance in found.items()]
     return [Called(np.array(some), c) for i, (some, c) in enumerate(kept) if i == 0 or c > LEAST]
@@ -65,6 +67,6 @@ def _some(able: dict[int, float], most: int) -> Iterator[tuple[int, ...]]:
         yield from combinations(sorted(able), count)
 
 
-def _together(able: dict[int, float], chosen: tuple[int, ...] | list[int]) -> float:
-    """Chance that these and no others are called by the name."""
-    return float(np.prod([c if n in chosen else 1.0 - c for n, c in able.items()]))
+def _together(able: dict[int, float], chosen: tuple[int, ...], missed: float) -> float:
+    """Chance that these and no others are found by the name, of which a line is missed by another chance."""
+    return float(np.prod([c if n in chosen else 1.0 - (1.0 - missed) * c for n, c in able.items()]))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
@@ -10,6 +12,8 @@ from statorhom.model.broken.basis import SymmetricBasis
 from statorhom.model.broken.mixed_names import ways_of
 from statorhom.model.broken.solve import BrokenModes
 from statorhom.model.harmonic import Harmonic
+
+_K = TypeVar("_K", bound=Hashable)
 
 LEAST = 0.2  # share of a doublet's plane that its two modes must keep to be called its own
 NEAR = 0.08  # of ln f: up to which modes that are mixed may be called by each other's names
@@ -110,12 +114,35 @@ def named_response(modes: BrokenModes, place: Columns) -> Response | None:
     return None if pair is None else response_of(modes, place, pair)
 
 
-def response_of(modes: BrokenModes, place: Columns, pair: NearestPair) -> Response:
-    """Response of a named mode whose broken modes are known, with those that may be called by its name instead."""
-    own, *others = ways_of(modes.participation[place.numbers], _near(modes, pair), pair.modes)
+def response_of(
+    modes: BrokenModes, place: Columns, pair: NearestPair, shares: np.ndarray | None = None
+) -> Response:
+    """Response of a named mode whose broken modes are known, with those that may be called by its name instead.
+
+    Parameters
+    ----------
+    shares : (modes,) of the name in what is seen of every broken mode; by default in its mass.
+    """
+    if shares is None:
+        shares = np.sum(modes.participation[place.numbers] ** 2, axis=0)
+    own, *others = ways_of(shares, _near(modes, pair), pair.modes)
     shift, split = _seen(modes, place, own.modes)
     ways = tuple(Way(*_seen(modes, place, other.modes), other.chance) for other in others)
     return Response(shift, split, chance=own.chance, ways=ways)
+
+
+def seen_shares(modes: BrokenModes, places: Mapping[_K, Columns], seen: np.ndarray) -> dict[_K, np.ndarray]:
+    """(modes,) share of every named mode in what is seen of the broken ones.
+
+    Parameters
+    ----------
+    places : of the named modes.
+    seen : (coordinates,) mean square radial motion of the surface by a unit of each: a mode is called by what of it is
+        seen, and the surface hardly moves in one across the sheets.
+    """
+    motion = seen[:, None] * modes.participation**2
+    whole = np.maximum(motion.sum(axis=0), np.finfo(float).tiny)
+    return {key: motion[place.numbers].sum(axis=0) / whole for key, place in places.items()}
 
 
 def _seen(modes: BrokenModes, place: Columns, chosen: np.ndarray) -> tuple[float, complex]:
