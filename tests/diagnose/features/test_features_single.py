@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from statorhom.diagnose.features.mode_features import ALONE, free_features, own_sd
 from statorhom.diagnose.measured.feature import LOST, SINGLE
@@ -33,3 +34,19 @@ def test_one_that_is_predicted_no_more_leaves_as_many_features() -> None:
 
 def test_their_frequency_is_less_certain() -> None:
     assert own_sd(ModelError(), KEY) > own_sd(ModelError(), (2, 0, 0)) + 0.8 * ALONE
+
+
+def test_a_single_line_of_a_parted_doublet_is_the_nearer_one() -> None:
+    """In the middle between the two there is none."""
+    key, split, f = (2, 0, 0), 0.08, 3000.0
+    predicted = {
+        key: PredictedMode(
+            key, StatorMode(f, 2, 0, "radial", 1.0, 2, 0, 0), float(np.log(f)), split + 0j, 1e-3
+        )
+    }
+    for part, away in ((0.0, 1.0), (0.5, 0.5), (1.0, 0.0), (-1.0, 0.0), (1.2, 0.2)):
+        row = MeasuredMode(0, "0", f * float(np.exp(part * split / 4)), order=2, axial=0, loss_factor=0.005)
+        line, _ = free_features(
+            MeasuredTest(0, "t", "free", (row,), False), (row,), (key,), predicted, {}, ModelError()
+        )
+        assert abs(line.measured - line.predicted) == pytest.approx(away * split / 4, abs=1e-9)

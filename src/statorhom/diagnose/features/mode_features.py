@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from math import hypot, log, sqrt, tanh
+from math import copysign, hypot, log, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -217,9 +217,10 @@ def _single(
     sd, own_row = measured_sd(row), (row.label,)
     if predicted.multiplicity == 1:
         return [_frequency(test, own_row, predicted, (measured, log_f), sd, own)]
-    # where the effect parts the two lines, it is one of them, a quarter of the split of λ to either side of the mean
+    # where the effect parts the two lines, it is one of them, a quarter of the split of λ to either side of the mean:
+    # the nearer one, for in the middle there is none
     away = abs(predicted.split) / 4 if abs(predicted.split) > (row.loss_factor or 0.01) else 0.0
-    log_f += away * tanh((measured - log_f) / (0.3 * away + 1e-9))
+    log_f += copysign(away, measured - log_f)
     width = UNRESOLVED * (row.loss_factor or 0.01)
     # tables leave modes out, and know no angles
     most, parts = (3.0, 2) if test.recorded else (1.8, 1)
