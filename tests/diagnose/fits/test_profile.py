@@ -23,6 +23,7 @@ class Bent:
     missed: float = 0.0
     constants: int = 1
     held: Any = None
+    untold: tuple[int, ...] = ()
 
     @property
     def prior_weights(self) -> np.ndarray:

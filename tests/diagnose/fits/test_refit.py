@@ -21,6 +21,7 @@ class Valley:
     missed: float = 0.0
     constants: int = 1
     held: Any = None
+    untold: tuple[int, ...] = ()
     asked: list[float] = field(default_factory=list)
 
     @property

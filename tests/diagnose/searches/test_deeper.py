@@ -35,6 +35,7 @@ class TwoValleys:
     missed: float = 0.0
     constants: int = 1
     held: Any = None
+    untold: tuple[int, ...] = ()
     arc: Any = None
     changes: Any = "a lump"
     whole: bool = True

@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.diagnose.features.mixed_modes import charges_of
+from statorhom.diagnose.fits.untold import untold_angles
 from statorhom.diagnose.measured.feature import Feature
 from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.diagnose.processes.memory import Memory
@@ -123,6 +124,15 @@ class AnyHypothesis(ABC):
     def parameters(self) -> tuple[tuple[int, int], ...]:
         """Candidate and parameter number of the vector's second part."""
         return tuple((i, j) for i, c in enumerate(self.candidates) for j in range(len(c.parameters)))
+
+    @cached_property
+    def untold(self) -> Sequence[int]:
+        """Places of coordinates of which no row tells, whatever their slopes (`untold_angles`)."""
+        if self.study.effects:
+            return ()
+        parameters = [self.candidates[i].parameters[j] for i, j in self.parameters]
+        tests = [test for stage in self.study.stages for test in stage.tests]
+        return [self.constants + k for k in untold_angles(parameters, tests)]
 
     def __len__(self) -> int:
         return self.constants + len(self.parameters)

@@ -166,6 +166,7 @@ def evaluated(hypothesis: _H, z: FloatArray) -> Refit[_H]:
 
 def _refit_at(hypothesis: _H, here: Point, J: FloatArray) -> Refit[_H]:
     misfit = float(here.residuals @ here.residuals)
+    J[:, list(hypothesis.untold)] = 0.0
     return Refit(hypothesis, here.z, J, misfit, here.objective, here.doubt)
 
 
