@@ -58,6 +58,7 @@ from statorhom.diagnose.searches.approach import RING, Approach
 from statorhom.diagnose.searches.deeper import in_its_deepest_valley
 from statorhom.diagnose.searches.hidden_materials import beside_hidden_materials
 from statorhom.diagnose.searches.leading_effects import Leading, leading_effects
+from statorhom.diagnose.searches.other_places import at_their_best_places
 from statorhom.diagnose.searches.second_effects import confirmed_pairs
 from statorhom.diagnose.searches.sharper import BEHIND
 from statorhom.geometry.tested_object import ObjectGeometry, RingGeometry
@@ -149,7 +150,7 @@ def _find(
         if found and _is_open_to_pairs(leading):
             found, confirmed = _with_pairs(approach, leading, counts, settings.seed)
         found = without_gross_rows(leading.base.free, found, counts)
-        found = in_its_deepest_valley(found, settings.seed)
+        found = in_its_deepest_valley(at_their_best_places(found), settings.seed)
     progress(1)
     none = nothing(leading.base.refit)
     best = found[0] if found else none

@@ -11,6 +11,62 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose.fits import new_step
+from statorhom.diagnose.fits.valleys import ASIDE, SETTLED
+
+
+def stand(
+    monkeypatch: pytest.MonkeyPatch, before: float, aside: float, settled: float, *, convincing: bool = True
+) -> tuple[str, list[float]]:
+    """Where the declared model ends up, and from where it was followed.
+
+    Parameters
+    ----------
+    before, aside, settled : objective where it stood, from a constant's upper side, and that in a model of its own.
+    """
+    constants = (
+        SimpleNamespace(log=True, sd=2.0),
+        SimpleNamespace(log=True, sd=0.1),
+        SimpleNamespace(log=False, sd=2.0),
+    )
+    study = SimpleNamespace(constants=SimpleNamespace(items=constants))
+
+    @dataclass(frozen=True)
+    class Blank:
+        study: Any
+        held: Any = "pairs"
+
+    best = SimpleNamespace(objective=before, z=np.zeros(3), hypothesis=Blank(study), name="before")
+    monkeypatch.setattr(new_step, "_is_convincing", lambda _: convincing)
+    begun: list[float] = []
+
+    def follow(blank: Blank, start: np.ndarray, worth: float) -> SimpleNamespace:
+        assert blank.held is None
+        assert worth in (before, aside)
+        begun.append(float(start[0]))
+        value = aside if start[0] > 0 else before
+        return SimpleNamespace(objective=value, z=start, hypothesis=blank, name="aside")
+
+    monkeypatch.setattr(new_step, "refitted", follow)
+    own = SimpleNamespace(objective=settled, name="settled")
+    monkeypatch.setattr(new_step, "_settled", lambda *_: own)
+    found: Any = new_step._on_its_best_side(best, (0, 1, 2), None)  # type: ignore[arg-type]
+    return found.name, begun
+
+
+def test_a_constant_of_which_little_is_known_is_tried_on_both_sides(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert stand(monkeypatch, 43.0, 35.0, 34.0) == ("settled", [-ASIDE, ASIDE])
+
+
+def test_what_gains_nothing_there_leaves_the_declared_model(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert stand(monkeypatch, 43.0, 43.0 - 0.5 * SETTLED, 30.0)[0] == "before"
+
+
+def test_what_does_not_convince_is_not_helped_to_flee(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert stand(monkeypatch, 43.0, 35.0, 34.0, convincing=False) == ("before", [])
+
+
+def test_what_is_worse_in_a_model_of_its_own_is_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert stand(monkeypatch, 43.0, 35.0, 44.0)[0] == "before"
 
 
 def valley(
@@ -79,6 +135,7 @@ def chosen(
         "_settled": settle,
         "nothing": lambda found: found,
         "_wide_objective": lambda found: found.own_wide,
+        "_on_its_best_side": lambda best, *_: best,
         "_in_a_basis_that_knows": lambda *_: list(known),
     }.items():
         monkeypatch.setattr(new_step, name, fake)

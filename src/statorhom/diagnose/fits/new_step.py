@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from statorhom.diagnose.fits.explanations import NARROWING, by_degrees, in_valleys, nothing, widened
+from statorhom.diagnose.fits.explanations import NARROWING, by_degrees, in_valleys, nothing, refitted, widened
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit, refit
 from statorhom.diagnose.fits.valleys import (
@@ -14,6 +15,7 @@ from statorhom.diagnose.fits.valleys import (
     DIFFERENT,
     FAR_BEHIND,
     MOST,
+    best_of_sides,
     different,
     is_apart,
     trials_around,
@@ -92,7 +94,28 @@ def with_step(
         found += _until_convincing(study, ahead, settings)
     best = found[-1] if _is_convincing(found[-1]) else _best_in_wide_valleys(found)
     left = (w.z for w in wide[:FOLLOWED] if _is_new(w, found, places))
-    return best.hypothesis.study, best.z, (*(r.z for r in found if r is not best), *left)
+    others = (*(r.z for r in found if r is not best), *left)
+    best = _on_its_best_side(best, places, settings)
+    return best.hypothesis.study, best.z, others
+
+
+def _on_its_best_side(
+    best: Refit[Hypothesis], places: Sequence[int], settings: Settings
+) -> Refit[Hypothesis]:
+    """The same, or a deeper one on another side of a constant of which little is known.
+
+    A modulus across the sheets moves few modes, and those little: wide valleys forgive a wrong one more than it costs.
+    What does not convince where it stands flees from physics that it lacks: the deeper, the further away.
+    """
+    if not _is_convincing(best):
+        return best
+    blank = replace(best.hypothesis, held=None)
+    constants = [(place, blank.study.constants.items[place]) for place in places]
+    other = best_of_sides(best, constants, lambda r, start: refitted(blank, start, r.objective))
+    if other is best:
+        return best
+    there = _settled(other.hypothesis.study, other, settings)
+    return min(best, there, key=lambda r: r.objective)
 
 
 def _of_more_draws(

@@ -31,7 +31,7 @@ def in_its_deepest_valley(found: Sequence[Explanation], seed: int) -> list[Expla
     found : the best first.
     seed : of the draws.
     """
-    if not found or found[0].adequacy_but_one > UNUSUAL or not _is_sought(found[0]):
+    if not found or found[0].adequacy_but_one > UNUSUAL or not is_sought(found[0]):
         return list(found)
     lead, *others = found
     best = lead.refit
@@ -45,7 +45,7 @@ def in_its_deepest_valley(found: Sequence[Explanation], seed: int) -> list[Expla
     return [lead, *others]
 
 
-def _is_sought(e: Explanation) -> bool:
+def is_sought(e: Explanation) -> bool:
     """Whether it is one effect at a place that breaks the symmetry, free in all its parameters, and every row counts.
 
     Arcs of lost contact are predicted in bases that know nearby ones alone.

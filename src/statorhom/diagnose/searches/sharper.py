@@ -7,7 +7,7 @@ valley that the right belief does not have.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -76,9 +76,20 @@ def at_its_own_materials(explanation: Explanation) -> Explanation:
     An explanation that leaves no more than noise may still be on its way: what is unequal along the axis and how stiff
     it is in the mean make up for each other, and both follow the reference.
     """
+    return _anew(
+        explanation, lambda r: not keeps_symmetry(r) and (_has_moved(r) or is_a_field(r.hypothesis, r.z))
+    )
+
+
+def in_its_own_models(explanation: Explanation) -> Explanation:
+    """The same in models at its own materials, anew as long as that explains more."""
+    return replace(_anew(explanation, lambda _: True), settled=True)
+
+
+def _anew(explanation: Explanation, is_worth_it: Callable[[Refit], bool]) -> Explanation:
+    """Models of its own, one after the other, while they are worth it and gain anything."""
     for _ in range(ROUNDS):
-        r = explanation.refit
-        if keeps_symmetry(r) or not (_has_moved(r) or is_a_field(r.hypothesis, r.z)):
+        if not is_worth_it(explanation.refit):
             break
         again = _sharpened(explanation)
         gained = explanation.refit.objective - again.refit.objective

@@ -1,0 +1,117 @@
+"""What a table's few lines leave open of an effect's place: other heights, and the other side of its absence.
+
+Splits without angles have no sign: a strip that is softer parts doublets like one that is stiffer. A lump that a refit
+has carried to an end of the core does not come back, for there all slopes by its height point outwards. A modulus that
+the declared model took from the wrong side stays there beside the effect. One start from each such place costs less
+than a second, and the best of them may explain far more. Beside recordings, angles and leans tell more, and a refit
+costs more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from statorhom.diagnose.evidence.decision import NEAR_RIVAL
+from statorhom.diagnose.fits.explanations import Explanation, refitted
+from statorhom.diagnose.fits.refit import Refit
+from statorhom.diagnose.fits.valleys import best_of_sides
+from statorhom.diagnose.processes.side_by_side import side_by_side
+from statorhom.diagnose.searches.deeper import DEEPER, is_sought
+from statorhom.diagnose.searches.sharper import in_its_own_models
+from statorhom.physics.parameter import EffectParameter
+
+MOST = 4  # explanations that are followed
+HEIGHTS = 0.2, 0.5  # of the core's height: what lies above its middle mirrors what lies below
+
+
+def at_their_best_places(found: Sequence[Explanation]) -> list[Explanation]:
+    """Explanations, the best first: what leads in a table and what comes near it, each at the best place that is found.
+
+    Parameters
+    ----------
+    found : the best first.
+    """
+    if not found or _was_recorded(found[0].refit):
+        return list(found)
+    least = found[0].log_evidence - NEAR_RIVAL
+    near = [e for e in found[:MOST] if e.log_evidence > least and is_sought(e)]
+    better = dict(
+        zip(
+            map(id, near),
+            side_by_side(_at_its_best_place, near, [e.refit.hypothesis for e in near]),
+            strict=True,
+        )
+    )
+    return sorted((better.get(id(e), e) for e in found), key=lambda e: -e.log_evidence)
+
+
+def _was_recorded(r: Refit) -> bool:
+    """Whether any test was recorded: then angles and leans are told."""
+    return any(test.recorded for stage in r.hypothesis.study.stages for test in stage.tests)
+
+
+def _at_its_best_place(explanation: Explanation) -> Explanation:
+    if not explanation.settled:
+        explanation = replace(_better(explanation, in_its_own_models(explanation)), settled=True)
+    explanation = _on_its_best_side(explanation)
+    best = explanation.refit
+    blank = replace(best.hypothesis, held=None)
+    there = [r for z in _other_places(best) if (r := refitted(blank, z, best.objective)) is not None]
+    other = min(there, key=lambda r: r.objective, default=None)
+    if other is None or other.objective > best.objective - DEEPER:
+        return explanation
+    return _better(explanation, in_its_own_models(_of(explanation, other)))
+
+
+def _on_its_best_side(explanation: Explanation) -> Explanation:
+    """With constants of which little is known on the sides where they leave least."""
+    best = explanation.refit
+    blank = replace(best.hypothesis, held=None)
+    constants = enumerate(blank.study.constants.items)
+    other = best_of_sides(best, constants, lambda r, start: refitted(blank, start, r.objective))
+    return explanation if other is best else _better(explanation, in_its_own_models(_of(explanation, other)))
+
+
+def _better(before: Explanation, now: Explanation) -> Explanation:
+    """What leaves less, unless it is so narrow that nothing speaks for it."""
+    now = _of(before, now.refit)
+    deeper = now.refit.objective < before.refit.objective - DEEPER
+    return now if deeper and now.log_evidence > before.log_evidence else before
+
+
+def _of(explanation: Explanation, other: Refit) -> Explanation:
+    """With another refit."""
+    gained = other.log_evidence - explanation.refit.log_evidence
+    return replace(explanation, refit=other, log_evidence=explanation.log_evidence + gained, settled=True)
+
+
+def _other_places(best: Refit) -> Iterator[np.ndarray]:
+    """All coordinates, the effect on the other side of its absence or at another height, as usual or as it is."""
+    n, (candidate,) = best.hypothesis.constants, best.hypothesis.candidates
+    magnitude = candidate.parameters[0]
+    if _has_two_sides(magnitude):
+        z = best.z.copy()
+        z[n] = magnitude.internal(_opposite(magnitude, magnitude.value(float(z[n]))))
+        yield z
+    usual = best.z.copy()
+    usual[n + 1 :][best.hypothesis.prior_weights[n + 1 :] > 0.0] = 0.0
+    for k, parameter in enumerate(candidate.parameters):
+        for part in HEIGHTS if parameter.scale == "place" else ():
+            for begun in (best.z, usual):
+                z = begun.copy()
+                z[n + k] = parameter.internal(parameter.lower + part * (parameter.upper - parameter.lower))
+                yield z
+
+
+def _has_two_sides(magnitude: EffectParameter) -> bool:
+    return magnitude.absent is not None and magnitude.lower < magnitude.absent < magnitude.upper
+
+
+def _opposite(magnitude: EffectParameter, value: float) -> float:
+    """As far on the other side of the absence."""
+    assert magnitude.absent is not None
+    other = magnitude.absent**2 / value if magnitude.scale == "log" else 2 * magnitude.absent - value
+    return float(np.clip(other, magnitude.lower, magnitude.upper))
