@@ -150,7 +150,7 @@ def _find(
         if found and _is_open_to_pairs(leading):
             found, confirmed = _with_pairs(approach, leading, counts, settings.seed)
         found = without_gross_rows(leading.base.free, found, counts)
-        found = in_its_deepest_valley(at_their_best_places(found), settings.seed)
+        found = in_its_deepest_valley(at_their_best_places(found, settings.seed), settings.seed)
     progress(1)
     none = nothing(leading.base.refit)
     best = found[0] if found else none

@@ -14,8 +14,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from statorhom.diagnose.evidence.decision import NEAR_RIVAL
+from statorhom.diagnose.evidence.decision import NEAR_RIVAL, UNUSUAL
 from statorhom.diagnose.fits.explanations import Explanation, refitted
+from statorhom.diagnose.fits.importance import Box
+from statorhom.diagnose.fits.profile import Profile
 from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.fits.valleys import best_of_sides
 from statorhom.diagnose.processes.side_by_side import side_by_side
@@ -24,27 +26,28 @@ from statorhom.diagnose.searches.sharper import in_its_own_models
 from statorhom.physics.parameter import EffectParameter
 
 MOST = 4  # explanations that are followed
+DRAWN = 30  # starts of what leaves too much
 HEIGHTS = 0.2, 0.5  # of the core's height: what lies above its middle mirrors what lies below
 
 
-def at_their_best_places(found: Sequence[Explanation]) -> list[Explanation]:
+def at_their_best_places(found: Sequence[Explanation], seed: int) -> list[Explanation]:
     """Explanations, the best first: what leads in a table and what comes near it, each at the best place that is found.
 
     Parameters
     ----------
     found : the best first.
+    seed : of the points that are drawn.
     """
     if not found or _was_recorded(found[0].refit):
         return list(found)
     least = found[0].log_evidence - NEAR_RIVAL
     near = [e for e in found[:MOST] if e.log_evidence > least and is_sought(e)]
-    better = dict(
-        zip(
-            map(id, near),
-            side_by_side(_at_its_best_place, near, [e.refit.hypothesis for e in near]),
-            strict=True,
-        )
+    followed = side_by_side(
+        lambda e: _at_its_best_place(e, seed if e is found[0] else None),
+        near,
+        [e.refit.hypothesis for e in near],
     )
+    better = dict(zip(map(id, near), followed, strict=True))
     return sorted((better.get(id(e), e) for e in found), key=lambda e: -e.log_evidence)
 
 
@@ -53,13 +56,17 @@ def _was_recorded(r: Refit) -> bool:
     return any(test.recorded for stage in r.hypothesis.study.stages for test in stage.tests)
 
 
-def _at_its_best_place(explanation: Explanation) -> Explanation:
+def _at_its_best_place(explanation: Explanation, seed: int | None) -> Explanation:
+    """From other places, and with a seed all over the prior where it leaves more than right ones leave."""
     if not explanation.settled:
         explanation = replace(_better(explanation, in_its_own_models(explanation)), settled=True)
     explanation = _on_its_best_side(explanation)
     best = explanation.refit
     blank = replace(best.hypothesis, held=None)
-    there = [r for z in _other_places(best) if (r := refitted(blank, z, best.objective)) is not None]
+    starts = list(_other_places(best))
+    if seed is not None and explanation.adequacy_but_one <= UNUSUAL:
+        starts += _drawn(best, seed)
+    there = [r for z in starts if (r := refitted(blank, z, best.objective)) is not None]
     other = min(there, key=lambda r: r.objective, default=None)
     if other is None or other.objective > best.objective - DEEPER:
         return explanation
@@ -104,6 +111,21 @@ def _other_places(best: Refit) -> Iterator[np.ndarray]:
                 z = begun.copy()
                 z[n + k] = parameter.internal(parameter.lower + part * (parameter.upper - parameter.lower))
                 yield z
+
+
+def _drawn(best: Refit, seed: int) -> list[np.ndarray]:
+    """All coordinates with the effect's parameters from all over their prior, but those of which nothing is told.
+
+    Of a heavy lump one start in fifteen leads to where it belongs.
+    """
+    profile = Profile.of(best)
+    prior = Box(*profile.limits(), profile.is_normal)
+    found = []
+    for point in prior.draws(DRAWN, np.random.default_rng(seed)):
+        z = best.z.copy()
+        z[profile.places] = point
+        found.append(z)
+    return found
 
 
 def _has_two_sides(magnitude: EffectParameter) -> bool:
