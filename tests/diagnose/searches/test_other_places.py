@@ -39,6 +39,7 @@ class Core:
     untold: tuple[int, ...] = ()
     constants: int = 1
     whole: bool = True
+    shared: tuple[object, ...] = ()
     missed: float = 0.0
 
     @property

@@ -66,7 +66,8 @@ def _at_its_best_place(explanation: Explanation, seed: int | None) -> Explanatio
     starts = list(_other_places(best))
     if seed is not None and explanation.adequacy_but_one <= UNUSUAL:
         starts += _drawn(best, seed)
-    there = [r for z in starts if (r := refitted(blank, z, best.objective)) is not None]
+    followed = side_by_side(lambda z: refitted(blank, z, best.objective), starts, [blank, *blank.shared])
+    there = [r for r in followed if r is not None]
     other = min(there, key=lambda r: r.objective, default=None)
     if other is None or other.objective > best.objective - DEEPER:
         return explanation
