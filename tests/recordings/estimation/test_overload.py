@@ -27,6 +27,7 @@ SIGNALS = {
 }
 
 
+@example(frequency_hz=39.0, decay_per_s=6.0, phase=6.07421875, bits=11, noise=0.0)
 @example(frequency_hz=60.359375, decay_per_s=5.0, phase=5.0, bits=13, noise=1e-4)
 @given(**SIGNALS, bits=st.integers(10, 24), noise=st.sampled_from([0.0, 1e-4, 0.01, 0.03]))
 def test_no_smooth_record_is_clipped(

@@ -18,7 +18,9 @@ _FLAT_DROP = 30.0
 _CLOSE = 100.0  # steps
 _LONELY = 2.0  # a smooth top has many more samples close to the extreme than at it
 _PILE_FEWEST = 20  # samples
-_PILE = 5.0  # a smooth top, however it is sampled, holds at most this many times the next slice's samples
+# a smooth top holds at most this many times the next slice's samples and one that sampling may leave out: 2/(√2 − 1),
+# where the record begins or ends so near it that the next slice has one flank alone
+_PILE = 5.0
 _PILE_SIGMAS = 6.0
 _WIDEST_SLICE = 0.1  # of the extreme; beyond it noise hides what a top looks like
 
@@ -71,4 +73,4 @@ def _piles_up(side: FloatArray, noise: float) -> bool:
         return False
     uppermost = int(np.count_nonzero(side > top - slice_height))
     next_one = int(np.count_nonzero(side > top - 2.0 * slice_height)) - uppermost
-    return uppermost >= _PILE_FEWEST and uppermost > _PILE * max(next_one, 1)
+    return uppermost >= _PILE_FEWEST and uppermost > _PILE * (next_one + 1)
