@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from statorhom.diagnose.fits import new_step
+from statorhom.diagnose.fits import new_step, valleys
 from statorhom.diagnose.fits.valleys import ASIDE, SETTLED
 
 
@@ -46,7 +46,7 @@ def stand(
         value = aside if start[0] > 0 else before
         return SimpleNamespace(objective=value, z=start, hypothesis=blank, name="aside")
 
-    monkeypatch.setattr(new_step, "refitted", follow)
+    monkeypatch.setattr(valleys, "refitted", follow)
     own = SimpleNamespace(objective=settled, name="settled")
     monkeypatch.setattr(new_step, "_settled", lambda *_: own)
     found: Any = new_step._on_its_best_side(best, (0, 1, 2), None)  # type: ignore[arg-type]

@@ -65,6 +65,11 @@ class Explanation(Generic[H]):
         """Of its candidates."""
         return " + ".join(c.label for c in self.candidates)
 
+    def at(self, other: Refit[H]) -> Explanation[H]:
+        """The same at another optimum."""
+        gained = other.log_evidence - self.refit.log_evidence
+        return replace(self, refit=other, log_evidence=self.log_evidence + gained)
+
     @property
     def set_aside(self) -> frozenset[tuple[str, ModeKey | None]]:
         """Groups of features that no explanation explains: they tell nothing of which one is right."""

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from statorhom.diagnose.fits.explanations import NARROWING, by_degrees, in_valleys, nothing, refitted, widened
+from statorhom.diagnose.fits.explanations import NARROWING, by_degrees, in_valleys, nothing, widened
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit, refit
 from statorhom.diagnose.fits.valleys import (
@@ -15,9 +15,9 @@ from statorhom.diagnose.fits.valleys import (
     DIFFERENT,
     FAR_BEHIND,
     MOST,
-    best_of_sides,
     different,
     is_apart,
+    on_its_best_side,
     trials_around,
     wide_optima,
     with_other_sides,
@@ -109,9 +109,7 @@ def _on_its_best_side(
     """
     if not _is_convincing(best):
         return best
-    blank = replace(best.hypothesis, held=None)
-    constants = [(place, blank.study.constants.items[place]) for place in places]
-    other = best_of_sides(best, constants, lambda r, start: refitted(blank, start, r.objective))
+    other = on_its_best_side(best, replace(best.hypothesis, held=None), places)
     if other is best:
         return best
     there = _settled(other.hypothesis.study, other, settings)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from statorhom.diagnose.fits.importance import Box
 from statorhom.diagnose.fits.refit import Point, Refit, covariance_of
 from statorhom.errors import StatorhomError
 
@@ -69,6 +70,11 @@ class Profile:
     def is_normal(self) -> npt.NDArray[np.bool_]:
         """(places,) whether a parameter's prior is normal; otherwise it is uniform."""
         return np.asarray(self.optimum.hypothesis.prior_weights[self.places] > 0.0)
+
+    @property
+    def prior(self) -> Box:
+        """Of the parameters, within their limits."""
+        return Box(*self.limits(), self.is_normal)
 
     def limits(self) -> tuple[FloatArray, FloatArray]:
         """Of the parameters; an angle has those of a turn about the optimum."""

@@ -114,9 +114,21 @@ def with_other_sides(blank: _H, wide: Sequence[Refit[_H]], places: Sequence[int]
     places : of the constants that are tried, where little is known of them.
     """
     coarse = replace(blank, discrepancy=COARSE)
-    constants = [(place, blank.study.constants.items[place]) for place in places]
-    best = best_of_sides(wide[0], constants, lambda r, start: refitted(coarse, start, r.objective))
+    best = on_its_best_side(wide[0], coarse, places)
     return different([best, *wide]) if best is not wide[0] else list(wide)
+
+
+def on_its_best_side(best: Refit[_H], blank: _H, places: Iterable[int]) -> Refit[_H]:
+    """The best of an optimum and what refits find on other sides of some constants, without models of their own.
+
+    Parameters
+    ----------
+    best : the optimum.
+    blank : what is refitted, to be paired anew.
+    places : of the constants that are tried, where little is known of them.
+    """
+    constants = [(place, blank.study.constants.items[place]) for place in places]
+    return best_of_sides(best, constants, lambda r, start: refitted(blank, start, r.objective))
 
 
 def best_of_sides(

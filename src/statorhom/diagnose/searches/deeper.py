@@ -14,7 +14,7 @@ import numpy as np
 
 from statorhom.diagnose.evidence.decision import UNUSUAL
 from statorhom.diagnose.fits.explanations import Explanation, refitted
-from statorhom.diagnose.fits.importance import Box, draws_of
+from statorhom.diagnose.fits.importance import draws_of
 from statorhom.diagnose.fits.profile import Profile
 from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.searches.refit_starts import MIDDLING, price_of
@@ -40,9 +40,7 @@ def in_its_deepest_valley(found: Sequence[Explanation], seed: int) -> list[Expla
         if deeper is None:
             break
         best = deeper
-    gained = best.log_evidence - lead.refit.log_evidence
-    lead = replace(lead, refit=best, log_evidence=lead.log_evidence + gained)
-    return [lead, *others]
+    return [lead.at(best), *others]
 
 
 def is_sought(e: Explanation) -> bool:
@@ -59,7 +57,7 @@ def is_sought(e: Explanation) -> bool:
 
 def _deeper(profile: Profile, seed: int) -> Refit | None:
     """The optimum at the best of what is drawn; None where that is no other."""
-    prior = Box(*profile.limits(), profile.is_normal)
+    prior = profile.prior
     rng = np.random.default_rng(seed)
     drawn = draws_of(profile.log_likelihood, prior, profile.middle, profile.covariance, rng)
     there = int(np.argmax(drawn.log_likelihoods + prior.log_density(drawn.points)))

@@ -16,10 +16,10 @@ import numpy as np
 
 from statorhom.diagnose.evidence.decision import NEAR_RIVAL, UNUSUAL
 from statorhom.diagnose.fits.explanations import Explanation, refitted
-from statorhom.diagnose.fits.importance import Box
+from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.profile import Profile
 from statorhom.diagnose.fits.refit import Refit
-from statorhom.diagnose.fits.valleys import best_of_sides
+from statorhom.diagnose.fits.valleys import on_its_best_side
 from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.diagnose.searches.deeper import DEEPER, is_sought
 from statorhom.diagnose.searches.sharper import in_its_own_models
@@ -59,10 +59,13 @@ def _was_recorded(r: Refit) -> bool:
 def _at_its_best_place(explanation: Explanation, seed: int | None) -> Explanation:
     """From other places, and with a seed all over the prior where it leaves more than right ones leave."""
     if not explanation.settled:
-        explanation = replace(_better(explanation, in_its_own_models(explanation)), settled=True)
-    explanation = _on_its_best_side(explanation)
-    best = explanation.refit
-    blank = replace(best.hypothesis, held=None)
+        explanation = replace(_better(explanation, explanation.refit), settled=True)
+    aside = on_its_best_side(
+        explanation.refit, _blank(explanation), range(explanation.refit.hypothesis.constants)
+    )
+    if aside is not explanation.refit:
+        explanation = _better(explanation, aside)
+    best, blank = explanation.refit, _blank(explanation)
     starts = list(_other_places(best))
     if seed is not None and explanation.adequacy_but_one <= UNUSUAL:
         starts += _drawn(best, seed)
@@ -71,29 +74,19 @@ def _at_its_best_place(explanation: Explanation, seed: int | None) -> Explanatio
     other = min(there, key=lambda r: r.objective, default=None)
     if other is None or other.objective > best.objective - DEEPER:
         return explanation
-    return _better(explanation, in_its_own_models(_of(explanation, other)))
+    return _better(explanation, other)
 
 
-def _on_its_best_side(explanation: Explanation) -> Explanation:
-    """With constants of which little is known on the sides where they leave least."""
-    best = explanation.refit
-    blank = replace(best.hypothesis, held=None)
-    constants = enumerate(blank.study.constants.items)
-    other = best_of_sides(best, constants, lambda r, start: refitted(blank, start, r.objective))
-    return explanation if other is best else _better(explanation, in_its_own_models(_of(explanation, other)))
+def _blank(explanation: Explanation) -> Hypothesis:
+    """What it is refitted with, to be paired anew."""
+    return replace(explanation.refit.hypothesis, held=None)
 
 
-def _better(before: Explanation, now: Explanation) -> Explanation:
-    """What leaves less, unless it is so narrow that nothing speaks for it."""
-    now = _of(before, now.refit)
+def _better(before: Explanation, other: Refit) -> Explanation:
+    """What an optimum leads to in its own models, where that leaves less and is not too narrow to speak for it."""
+    now = before.at(in_its_own_models(replace(before, refit=other)).refit)
     deeper = now.refit.objective < before.refit.objective - DEEPER
     return now if deeper and now.log_evidence > before.log_evidence else before
-
-
-def _of(explanation: Explanation, other: Refit) -> Explanation:
-    """With another refit."""
-    gained = other.log_evidence - explanation.refit.log_evidence
-    return replace(explanation, refit=other, log_evidence=explanation.log_evidence + gained, settled=True)
 
 
 def _other_places(best: Refit) -> Iterator[np.ndarray]:
@@ -120,9 +113,8 @@ def _drawn(best: Refit, seed: int) -> list[np.ndarray]:
     Of a heavy lump one start in fifteen leads to where it belongs.
     """
     profile = Profile.of(best)
-    prior = Box(*profile.limits(), profile.is_normal)
     found = []
-    for point in prior.draws(DRAWN, np.random.default_rng(seed)):
+    for point in profile.prior.draws(DRAWN, np.random.default_rng(seed)):
         z = best.z.copy()
         z[profile.places] = point
         found.append(z)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 import numpy.typing as npt
@@ -10,10 +10,11 @@ import numpy.typing as npt
 from statorhom.diagnose.bases.trained_basis import TrainedBasis
 from statorhom.diagnose.stages.stage_model import StageModel
 from statorhom.model.affine import Materials
+from statorhom.model.broken.basis import SymmetricBasis
 from statorhom.model.broken.named_response import NearestPair
 from statorhom.model.broken.solve import BrokenModes
 from statorhom.model.convergence import ModeKey
-from statorhom.model.radial_profile import radial_profile
+from statorhom.model.radial_profile import RadialProfile, radial_profile
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -110,15 +111,27 @@ def _amplitudes(stage: StageModel, trained: TrainedBasis, order: int) -> tuple[F
         basis = trained.basis
         profile = radial_profile(stage.model.mesh, np.array(stage.heights_m))
         cosine, sine = (np.zeros((len(stage.heights_m), len(basis.values))) for _ in range(2))
-        for problem, families in zip(basis.problems, basis.places, strict=True):
-            space = problem.sector.space
-            if space.order == order:
-                along = profile.orders(space, space.expand(problem.vectors))
-                for is_sine, own in families.items():
-                    (sine if is_sine else cosine)[:, own] = along
+        for families, along in _motions(basis, profile, order):
+            for is_sine, own in families.items():
+                (sine if is_sine else cosine)[:, own] = along
         trained.amplitudes[place] = cosine, sine
     known: tuple[FloatArray, FloatArray] = trained.amplitudes[place]
     return known
+
+
+def _motions(
+    basis: SymmetricBasis, profile: RadialProfile, order: int | None = None
+) -> Iterator[tuple[Mapping[bool, slice], FloatArray]]:
+    """Where every problem's coordinates stand, by families, and the amplitudes (heights, k) by a unit of each.
+
+    Parameters
+    ----------
+    order : of the problems that are wanted; all by default.
+    """
+    for problem, families in zip(basis.problems, basis.places, strict=True):
+        space = problem.sector.space
+        if order is None or space.order == order:
+            yield families, profile.orders(space, space.expand(problem.vectors))
 
 
 def radial_motion(stage: StageModel, trained: TrainedBasis) -> FloatArray:
@@ -126,9 +139,7 @@ def radial_motion(stage: StageModel, trained: TrainedBasis) -> FloatArray:
     if None not in trained.amplitudes:
         basis, profile = trained.basis, radial_profile(stage.model.mesh)
         squares = np.zeros(len(basis.values))
-        for problem, families in zip(basis.problems, basis.places, strict=True):
-            space = problem.sector.space
-            along = profile.orders(space, space.expand(problem.vectors))
+        for families, along in _motions(basis, profile):
             for own in families.values():
                 squares[own] = np.mean(along**2, axis=0)
         trained.amplitudes[None] = squares
