@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from example_evidence import FALLS, GOOD, GROUPS
 
-from statorhom.diagnose.evidence.decision import decide, within_bounds
+from statorhom.diagnose.evidence.decision import Evidence, decide, within_bounds
 from statorhom.diagnose.evidence.held_out import HeldOut
 from statorhom.diagnose.fits.explanations import Explanation
 from statorhom.physics.candidate import Candidate
@@ -42,18 +42,34 @@ def test_each_rule_fails_alone(change: dict[str, object], verdict: str) -> None:
     assert decide(replace(GOOD, **change)) == verdict
 
 
+def left(share: float, **change: object) -> Evidence:
+    """Evidence before chance of e12, with a share of the error in unseen modes left."""
+    unseen = replace(FALLS, after=tuple(share * b for b in FALLS.before))
+    return replace(GOOD, **{"over_discrepancy": 12.0, "held_out": unseen, **change})
+
+
 def test_what_leaves_more_than_right_ones_do_has_to_be_far_ahead_of_a_discrepancy() -> None:
     """Of two tethers that were called a suspension one left a misfit of a chance of 0.15, and led chance by 12."""
-    ahead = replace(GOOD, over_discrepancy=12.0)
-    assert decide(replace(ahead, adequacy=0.8)) == "named"
-    assert decide(replace(ahead, adequacy=0.8, over_discrepancy=3.1)) == "named"
-    assert decide(replace(ahead, adequacy=0.15)) == "unknown"
+    assert decide(left(0.2, adequacy=0.8)) == "named"
+    assert decide(left(0.2, adequacy=0.8, over_discrepancy=3.1)) == "named"
+    assert decide(left(0.2, adequacy=0.8, over_discrepancy=2.9)) == "unknown"
+    assert decide(left(0.2, adequacy=0.15)) == "unknown"
     # in between the more is asked, the more is left: a lump led chance by 5.4 where patches were (57085, 0.25)
-    assert decide(replace(ahead, adequacy=0.5)) == "named"
-    assert decide(replace(ahead, adequacy=0.4)) == "unknown"
-    assert decide(replace(ahead, adequacy=0.15, over_discrepancy=20.1)) == "named"
+    assert decide(left(0.2, adequacy=0.4)) == "named"
+    assert decide(left(0.2, adequacy=0.3)) == "unknown"
+    assert decide(left(0.2, adequacy=0.15, over_discrepancy=40.0)) == "named"
     # rivals that explain it as well are told apart first
-    assert decide(replace(ahead, adequacy=0.15, over_others=1.0)) == "ambiguous"
+    assert decide(left(0.2, adequacy=0.15, over_others=1.0)) == "ambiguous"
+
+
+def test_what_predicts_unseen_modes_badly_has_to_be_far_ahead_of_a_discrepancy() -> None:
+    """Four lumps that were called one (59222) left 0.28 of the unseen modes' error and a misfit of a chance of 0.42."""
+    assert decide(left(0.28, adequacy=0.42, over_discrepancy=11.8)) == "unknown"
+    # a right one leaves less of it
+    assert decide(left(0.15, adequacy=0.42, over_discrepancy=11.8)) == "named"
+    # one mode that a fit without it loses is most of an error: more than half of it counts as half
+    assert left(0.7).least_over_discrepancy == left(0.5).least_over_discrepancy
+    assert replace(left(0.2), held_out=None).least_over_discrepancy == left(0.5).least_over_discrepancy
 
 
 def test_a_fall_by_less_than_a_quarter_is_none() -> None:

@@ -63,6 +63,11 @@ class HeldOut:
     def after_rms(self) -> float:
         return self._weighted(self.after)
 
+    @property
+    def share_left(self) -> float:
+        """Part of the declared model's error that is left; 1 where that had none."""
+        return self.after_rms / self.before_rms if self.before_rms > 0.0 else 1.0
+
     def _weighted(self, errors: Sequence[float]) -> float:
         """Root mean square; what the modes that were seen do not tell counts for little."""
         weights = self._in_noise(np.ones(len(errors)))

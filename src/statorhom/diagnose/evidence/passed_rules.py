@@ -51,7 +51,7 @@ def _asked(e: Evidence, *, far: bool) -> tuple[float, float, float]:
         return e.least_over_nothing, OVER_OTHERS, e.least_over_discrepancy
     if e.held_out is not None and e.held_out.improves:
         return OVER_ADEQUATE, FAR_OVER_OTHERS, max(FAR_OVER_OTHERS, e.least_over_discrepancy)
-    return FAR_OVER_NOTHING, FAR_OVER_OTHERS, FAR_OVER_NOTHING
+    return FAR_OVER_NOTHING, FAR_OVER_OTHERS, max(FAR_OVER_NOTHING, e.least_over_discrepancy)
 
 
 def _needs_more_evidence(e: Evidence) -> bool:
@@ -71,7 +71,7 @@ def _held_out(e: Evidence, *, far: bool) -> RuleRow:
     better = not blind and (far or (unseen.falls and not unseen.worsens))
     return RuleRow(
         rule="held_out",
-        found=1 - unseen.after_rms / unseen.before_rms,
+        found=1 - unseen.share_left,
         # where all else is far behind, it is enough that nothing contradicts
         needed=unseen.least_fall if unseen.improves or not far else None if blind else 0.0,
         # too few modes show anything: they cannot contradict, nor can they confirm
