@@ -43,7 +43,7 @@ def test_what_explains_less_than_its_absence_is_sought_all_over_the_prior(
     """In wide valleys it was in none of its own: a soft end winding was given up for a stranger's suspension."""
     narrow = SimpleNamespace(rough=None)
     monkeypatch.setattr(refit_starts, "narrowed_starts", lambda _: [narrow])
-    monkeypatch.setattr(refit_starts, "_with_rough", lambda _, starts: starts)
+    monkeypatch.setattr(refit_starts, "_through_sizes", lambda _, starts: starts)
     usual, lost = (trial(19.0 + more) for more in (refit_starts.UNUSUAL, 14.0))
     assert refit_starts._in_wide_valleys(BASE, 19.0, usual) == usual
     sought = refit_starts._in_wide_valleys(BASE, 19.0, lost)
@@ -51,6 +51,29 @@ def test_what_explains_less_than_its_absence_is_sought_all_over_the_prior(
     # of it wide valleys say nothing, so that they are no reason to leave it out
     others = [trial(rough) for rough in (18.0, 18.1, 18.2, 18.3, 18.95)]
     assert refit_starts._promising(19.0, [sought, *others]) == [*others[:4], sought]
+
+
+def test_from_the_constants_of_a_start_every_size_is_tried(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where one of them leads nowhere the others do."""
+    tried: list[list[float]] = []
+
+    def wide(_: Any, points: Any, __: Any) -> list[Any]:
+        tried.extend(z.tolist() for z in points)
+        return [SimpleNamespace(z=z, objective=float(z[-1])) for z in points]
+
+    monkeypatch.setattr(refit_starts, "scan_starts", lambda *_: [np.array([v]) for v in (3.0, 2.0, 5.0)])
+    monkeypatch.setattr(refit_starts, "wide_optima", wide)
+    monkeypatch.setattr(refit_starts, "replace", lambda hypothesis, **_: hypothesis)
+    monkeypatch.setattr(refit_starts, "narrowed", lambda rough: rough)
+    monkeypatch.setattr(
+        refit_starts, "refitted", lambda _, z: None if z[-1] == 3.0 else SimpleNamespace(objective=z[-1])
+    )
+    hypothesis: Any = SimpleNamespace(study=None, candidates=[SimpleNamespace(parameters=["share"])])
+    start = refit_starts.Start(hypothesis, np.array([0.1, 0.2, 9.0]))
+    assert refit_starts.STARTS == 2
+    found = refit_starts.best_of_sizes(start)
+    assert found is not None and found.objective == 9.0
+    assert tried == [[0.1, 0.2, 9.0], [0.1, 0.2, 3.0], [0.1, 0.2, 2.0], [0.1, 0.2, 5.0]]
 
 
 def test_few_supports_go_with_all_the_constants() -> None:
@@ -143,7 +166,7 @@ def test_rivals_of_the_favourite_are_sought_all_over_the_prior(monkeypatch: pyte
     monkeypatch.setattr(refit_starts, "starts_of", lambda _, __, s: [start[s.candidate.label]])
     monkeypatch.setattr(refit_starts, "searched", lambda s: [f"{s.name} searched"])
     monkeypatch.setattr(refit_starts, "narrowed_starts", lambda s: [f"{s.name} searched, narrowed"])
-    monkeypatch.setattr(refit_starts, "_with_rough", lambda _, starts: starts)
+    monkeypatch.setattr(refit_starts, "_through_sizes", lambda _, starts: starts)
     monkeypatch.setattr(refit_starts, "_without", lambda _: 100.0)
     monkeypatch.setattr(refit_starts, "_promising", lambda _, trials: trials)
     order: Any = list(refit_starts.in_order(BASE, scan, signatures[:2]))

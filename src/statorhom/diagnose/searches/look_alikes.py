@@ -2,20 +2,22 @@
 
 A winding has many valleys, and what costs little is sought in few of them as soon as something leaves no more than
 noise. Of two effects that look alike the wrong one may be found first, and lead only because the other one was not.
-The library says what looks alike.
+The library says what looks alike. Where the declared model may do as well, so that little is known of the winding, they
+are sought beside the one that came with the lead: whatever looks alike has it too.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
-from statorhom.diagnose.evidence.decision import NEAR_RIVAL
+from statorhom.diagnose.evidence.decision import NEAR_RIVAL, least_over_nothing
 from statorhom.diagnose.fits.explanations import ADEQUATE, WELL, Explanation, nothing
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.diagnose.searches.beside_typical import in_own_models
-from statorhom.diagnose.searches.refit_starts import cheap_starts, shared_by
+from statorhom.diagnose.searches.refit_starts import best_of_sizes, cheap_starts, shared_by
 from statorhom.diagnose.searches.thorough import best_of_many
 from statorhom.diagnose.stages.study_model import StudyModel
 from statorhom.physics.candidate import Candidate
@@ -39,11 +41,16 @@ def look_alikes(
     if not found or not isinstance(base.hypothesis, Hypothesis):
         return []
     best = found[0]
-    # where no more is left than noise it has not been sought thoroughly yet
-    if best.adequacy_but_one <= WELL or nothing(base).adequacy > ADEQUATE:
+    # where more is left than noise it has been sought thoroughly already, and what leads by too little gets no name
+    none = nothing(base)
+    ahead = best.log_evidence - none.log_evidence > least_over_nothing(none.adequacy)
+    if best.adequacy_but_one <= WELL or not ahead:
         return []
-    begun = cheap_starts(base, _taken_for(best, candidates, base.hypothesis.study))
-    again = side_by_side(best_of_many, begun, shared_by(begun))
+    alike = _taken_for(best, candidates, base.hypothesis.study)
+    unknown = none.adequacy > ADEQUATE
+    beside = replace(base, z=best.refit.z[: base.hypothesis.constants]) if unknown else base
+    begun = cheap_starts(beside, alike)
+    again = side_by_side(best_of_sizes if unknown else best_of_many, begun, shared_by(begun))
     near = [r for r in again if r is not None and r.objective < best.refit.objective + NEAR]
     return [e for e in in_own_models(near, counts) if e.log_evidence > best.log_evidence - NEAR_RIVAL]
 

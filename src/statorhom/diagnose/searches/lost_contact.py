@@ -71,9 +71,10 @@ def with_lost_contact(
     declared = nothing(base)
     best = found[0] if found else declared
     if arcs and declared.adequacy > ADEQUATE:
-        # its few lines may be what a winding too soft explains; that others have no partner speaks against it
+        # its few lines may be what a winding too soft explains; that others have no partner speaks against it, and so
+        # does a lead that an arc looks like
         seen = best.log_evidence > declared.log_evidence + OVER_NOTHING
-        arcs = [c for c in arcs if seen and _lacks_partners(best.refit, c)]
+        arcs = [c for c in arcs if seen and (_lacks_partners(best.refit, c) or _looks_like(best, c))]
     arcs = [c for c in arcs if _may_rival(base, best, c)]
     if not arcs:
         return []

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from statorhom.diagnose.fits.explanations import blank, narrowed, widened
+from statorhom.diagnose.fits.explanations import blank, narrowed, refitted, widened
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.fits.valleys import wide_optima
@@ -118,7 +118,7 @@ def _narrowed(trial: Trial) -> Trial:
 def _in_wide_valleys(base: Refit, without: float, trial: Trial) -> Trial:
     """With starts in wide valleys; what explains less there than its absence is sought all over the prior."""
     gain, starts = trial
-    begun = _with_rough(base, starts)
+    begun = _through_sizes(base.z, starts)
     if begun[0].rough is None or begun[0].rough.objective <= without + UNUSUAL:
         return gain, begun
     return gain, [*narrowed_starts(starts[0]), *begun]
@@ -267,11 +267,24 @@ def narrowed_starts(start: Start) -> list[Start]:
     return [replace(start, z=found.z) for found in narrow]
 
 
-def _with_rough(base: Refit, starts: list[Start]) -> list[Start]:
-    """Starts at the best optima in wide valleys that are found from all of a cheap candidate's magnitudes."""
+def best_of_sizes(start: Start) -> Refit | None:
+    """The best optimum that any of a candidate's magnitudes leads to from the constants of a start."""
+    constants = start.z[: -len(start.hypothesis.candidates[-1].parameters)]
+    rough = (s.rough for s in _through_sizes(constants, [start]))
+    refits = [refitted(start.hypothesis, narrowed(r).z) for r in rough if r is not None]
+    return min((r for r in refits if r is not None), key=lambda r: r.objective, default=None)
+
+
+def _through_sizes(constants: np.ndarray, starts: list[Start]) -> list[Start]:
+    """Starts at the best optima in wide valleys that are found from all of a cheap candidate's magnitudes.
+
+    Parameters
+    ----------
+    constants : what the candidate stands beside, with what other effects have of parameters.
+    """
     hypothesis = starts[0].hypothesis
-    every = scan_starts(base.hypothesis.study, hypothesis.candidates[-1])
-    points = [*(start.z for start in starts), *(np.r_[base.z, one] for one in every)]
+    every = scan_starts(hypothesis.study, hypothesis.candidates[-1])
+    points = [*(start.z for start in starts), *(np.r_[constants, one] for one in every)]
     try:
         found = wide_optima(replace(hypothesis, trained=False), points, TRIED)[:STARTS]
     except IdentificationError:
