@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from statorhom.model.broken.mixed_names import LEAST, MOST, chances_of, ways_of
+from statorhom.model.broken.mixed_names import LEAST, MOST, able_of, chances_of, ways_of
 
 
 def test_half_of_a_name_is_called_by_it_half_of_the_time() -> None:
@@ -39,3 +39,11 @@ def test_of_three_lines_that_are_called_alike_any_two_may_be_found() -> None:
     assert found[0, 1] > found[0, 2] == pytest.approx(found[1, 2])
     # where nothing else is called so, two lines are two lines
     assert len(ways_of(np.array([1.0, 1.0, 0.0]), np.arange(3), np.array([0, 1]))) == 1
+
+
+def test_all_lines_that_may_be_called_by_a_name_are_told_one_by_one() -> None:
+    """Of a lump's (2, 2) and (4, 1) three of four lines are called (4, 1)."""
+    found = able_of(np.array([0.78, 0.8, 0.95, 0.24, 0.05, 1.0]), np.arange(5))
+    assert list(found) == [0, 1, 2, 3]
+    assert found[2] > found[1] > found[0] > 0.9 > 0.1 > found[3] > LEAST
+    assert len(able_of(np.full(9, 0.9), np.arange(9))) == MOST

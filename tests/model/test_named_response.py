@@ -55,6 +55,9 @@ def test_a_mode_that_is_half_another_name_s_may_be_called_by_it() -> None:
     assert upper.split == pytest.approx((np.exp(0.08) - 1) / mean)
     # or one line alone, the other of which is called otherwise
     assert 0.0 in {way.split for way in found.ways}
+    # all lines that may be called so, each for itself
+    assert {round(line.shift, 9) for line in found.lines} == {0.0, round(0.04, 9)}
+    assert all(line.split == 0j and 0.0 < line.chance <= 1.0 for line in found.lines)
     assert upper.chance < found.chance
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from statorhom.diagnose.features.assignment import Keys
 from statorhom.diagnose.features.lost_lines import lost_lines
 from statorhom.diagnose.features.mixed_modes import cost_of
+from statorhom.diagnose.features.third_lines import third_line
 from statorhom.diagnose.measured.feature import LOST, SINGLE, Feature, Silence
 from statorhom.diagnose.measured.measured_test import SHIFT_OWN, SHIFT_PART, MeasuredSplit, MeasuredTest
 from statorhom.diagnose.predicted.prediction import PredictedMode
@@ -65,7 +66,8 @@ def free_features(
     typical = _typical_split(test, [rows for key, rows in by_key.items() if key is not None])
     for key, rows in by_key.items():
         if key is None:
-            found += lost_lines(test, rows, modes, typical)
+            lost = lost_lines(test, rows, modes, typical)
+            found += [_called_alike(one, by_key, predicted, error, discrepancy) for one in lost]
         elif key in predicted:
             own = _Own(hypot(own_sd(error, key), discrepancy), hypot(OWN, discrepancy))
             ways = [
@@ -76,6 +78,23 @@ def free_features(
         else:
             found += _vanished(test, rows, key)
     return found
+
+
+def _called_alike(
+    lost: Feature,
+    by_key: Mapping[ModeKey | None, Sequence[MeasuredMode]],
+    predicted: Mapping[ModeKey, PredictedMode],
+    error: ModelError,
+    discrepancy: float,
+) -> Feature:
+    """A lost line, or the third one of the likeliest mode of its name."""
+    row = next(m for m in by_key[None] if (m.label,) == lost.rows)
+    thirds = [
+        third_line(lost, row, mates, predicted[key], sd_and_least(row, own_sd(error, key), discrepancy))
+        for key, mates in by_key.items()
+        if key is not None and key in predicted
+    ]
+    return min([lost, *thirds], key=lambda f: cost_of([f]))
 
 
 def _vanished(test: MeasuredTest, rows: Sequence[MeasuredMode], key: ModeKey) -> list[Feature]:

@@ -45,6 +45,7 @@ class PredictedMode(NamedByMode):
     profile : (heights,) its order's radial motion at the stage's `heights_m`; None where nobody measured it.
     chance : that what is called by its name is what this says.
     ways : what else may be.
+    lines : ln f, off that of the mode, of every line that may be called by its name, alone.
     """
 
     key: ModeKey
@@ -61,6 +62,7 @@ class PredictedMode(NamedByMode):
     profile: np.ndarray | None = None
     chance: float = 1.0
     ways: tuple[Way, ...] = ()
+    lines: tuple[Way, ...] = ()
 
     @property
     def axial(self) -> int | None:
@@ -179,6 +181,7 @@ def predicted(
             ways=tuple(
                 replace(w, shift=w.shift - response.shift, split=one.split + w.split) for w in response.ways
             ),
+            lines=tuple(replace(w, shift=w.shift - response.shift) for w in response.lines),
         )
     return found
 

@@ -43,9 +43,7 @@ def ways_of(shares: np.ndarray, near: np.ndarray, usual: np.ndarray) -> list[Cal
     near : numbers of the broken modes that are near enough.
     usual : (k,) numbers of those that have most of it, as many as it has modes.
     """
-    chances = chances_of(shares[near])
-    likeliest = near[np.argsort(-chances)[:MOST]]
-    able = {int(n): float(c) for n, c in zip(near, chances, strict=True) if n in likeliest and c > LEAST}
+    able = able_of(shares, near)
     able |= {int(n): able.get(int(n), LEAST) for n in usual}
     most = len(usual)
     ways = [tuple(sorted(usual.tolist())), *_some(able, most)]
@@ -53,6 +51,13 @@ def ways_of(shares: np.ndarray, near: np.ndarray, usual: np.ndarray) -> list[Cal
     whole = sum(found.values())
     kept = [(some, chance / whole) for some, chance in found.items()]
     return [Called(np.array(some), c) for i, (some, c) in enumerate(kept) if i == 0 or c > LEAST]
+
+
+def able_of(shares: np.ndarray, near: np.ndarray) -> dict[int, float]:
+    """Broken modes that may be called by a name, each with its chance; arguments as for `ways_of`."""
+    chances = chances_of(shares[near])
+    likeliest = near[np.argsort(-chances)[:MOST]]
+    return {int(n): float(c) for n, c in zip(near, chances, strict=True) if n in likeliest and c > LEAST}
 
 
 def chances_of(shares: np.ndarray) -> np.ndarray:

@@ -9,7 +9,7 @@ from typing import TypeVar
 import numpy as np
 
 from statorhom.model.broken.basis import SymmetricBasis
-from statorhom.model.broken.mixed_names import ways_of
+from statorhom.model.broken.mixed_names import able_of, ways_of
 from statorhom.model.broken.solve import BrokenModes
 from statorhom.model.harmonic import Harmonic
 
@@ -54,6 +54,7 @@ class Response:
     profile : (heights,) its order's radial motion along the axis; None where nobody asked.
     chance : that the modes which have most of it are those that are called by its name.
     ways : the others, where modes are mixtures of several names.
+    lines : every mode that may be called by the name, alone.
     """
 
     shift: float
@@ -62,6 +63,7 @@ class Response:
     profile: np.ndarray | None = None
     chance: float = 1.0
     ways: tuple[Way, ...] = ()
+    lines: tuple[Way, ...] = ()
 
 
 def columns_of(basis: SymmetricBasis, space: Harmonic, frequency_hz: float) -> Columns | None:
@@ -125,10 +127,13 @@ def response_of(
     """
     if shares is None:
         shares = np.sum(modes.participation[place.numbers] ** 2, axis=0)
-    own, *others = ways_of(shares, _near(modes, pair), pair.modes)
+    near = _near(modes, pair)
+    own, *others = ways_of(shares, near, pair.modes)
     shift, split = _seen(modes, place, own.modes)
     ways = tuple(Way(*_seen(modes, place, other.modes), other.chance) for other in others)
-    return Response(shift, split, chance=own.chance, ways=ways)
+    alone = able_of(shares, near).items()
+    lines = tuple(Way(*_seen(modes, place, np.array([number])), chance) for number, chance in alone)
+    return Response(shift, split, chance=own.chance, ways=ways, lines=lines)
 
 
 def seen_shares(modes: BrokenModes, places: Mapping[_K, Columns], seen: np.ndarray) -> dict[_K, np.ndarray]:
