@@ -57,7 +57,9 @@ def test_what_leaves_more_than_right_ones_do_has_to_be_far_ahead_of_a_discrepanc
     # in between the more is asked, the more is left: a lump led chance by 5.4 where patches were (57085, 0.25)
     assert decide(left(0.2, adequacy=0.4)) == "named"
     assert decide(left(0.2, adequacy=0.3)) == "unknown"
-    assert decide(left(0.2, adequacy=0.15, over_discrepancy=40.0)) == "named"
+    # what is far enough ahead is beyond doubt, whatever is left
+    assert decide(left(0.2, adequacy=0.15, over_discrepancy=19.9)) == "unknown"
+    assert decide(left(0.2, adequacy=0.15, over_discrepancy=20.1)) == "named"
     # rivals that explain it as well are told apart first
     assert decide(left(0.2, adequacy=0.15, over_others=1.0)) == "ambiguous"
 

@@ -18,7 +18,7 @@ OVER_NOTHING, OVER_OTHERS = 5.0, 3.0  # of log evidence
 # held-out ones to confirm it: as much and ln of the number of effects, any of which may have found something in the
 # noise. Of rivals and of something in no library few modes tell it apart by more, too.
 OVER_ADEQUATE, FAR_OVER_OTHERS = 8.0, 5.0
-# The same where held-out modes do not confirm it at all.
+# The same where held-out modes do not confirm it at all; what is so far ahead is beyond doubt.
 FAR_OVER_NOTHING = 20.0
 # What is asked over something in no library: so much per share that is left of the error in unseen modes, and less by
 # this power of e with the chance of what is left in those that were seen. What looks like the truth leaves more of
@@ -137,7 +137,8 @@ class Evidence:
     def least_over_discrepancy(self) -> float:
         """Log evidence that is asked for: the more, the more is left of what was seen and of what was not."""
         left = MOST_LEFT if self.held_out is None else min(self.held_out.share_left, MOST_LEFT)
-        return max(OVER_OTHERS, PER_SHARE * left * float(np.exp(-BY_CHANCE * self.adequacy)))
+        asked = PER_SHARE * left * np.exp(-BY_CHANCE * self.adequacy)
+        return float(np.clip(asked, OVER_OTHERS, FAR_OVER_NOTHING))
 
     @property
     def undecided(self) -> bool:

@@ -51,7 +51,7 @@ def _asked(e: Evidence, *, far: bool) -> tuple[float, float, float]:
         return e.least_over_nothing, OVER_OTHERS, e.least_over_discrepancy
     if e.held_out is not None and e.held_out.improves:
         return OVER_ADEQUATE, FAR_OVER_OTHERS, max(FAR_OVER_OTHERS, e.least_over_discrepancy)
-    return FAR_OVER_NOTHING, FAR_OVER_OTHERS, max(FAR_OVER_NOTHING, e.least_over_discrepancy)
+    return FAR_OVER_NOTHING, FAR_OVER_OTHERS, FAR_OVER_NOTHING
 
 
 def _needs_more_evidence(e: Evidence) -> bool:
