@@ -13,6 +13,7 @@ from statorhom.model.convergence import ModeKey
 LEAST_FALL, OF_TABLES = 0.25, 0.35
 LEAST_NOISE = 1e-3  # percent
 ERRORS = 2.0  # standard errors that the fall must exceed
+MOST = 0.9  # of the squared errors: what one mode is of them where a fit has lost it
 WORSE = 1.5  # a group worsens when its error grows by this and beyond its noise
 
 WHAT = "each mode of which the two say different things, predicted from fits that did not see it (six folds)"
@@ -65,8 +66,19 @@ class HeldOut:
 
     @property
     def share_left(self) -> float:
-        """Part of the declared model's error that is left; 1 where that had none."""
-        return self.after_rms / self.before_rms if self.before_rms > 0.0 else 1.0
+        """Part of the declared model's error that is left; 1 where that had none.
+
+        A mode that fits lose without it, with the explanation as without, is most of either error and says nothing of
+        which one is better.
+        """
+        before, after = self._in_noise(self.before), self._in_noise(self.after)
+        if not self.groups or not before.any():
+            return 1.0
+        worst = int(np.argmax(after))
+        lost = after[worst] ** 2 > MOST * float(after @ after) and after[worst] > before[worst] / 2
+        told = np.arange(len(after)) != worst if lost else np.ones(len(after), dtype=bool)
+        whole = float(np.linalg.norm(before[told]))
+        return float(np.linalg.norm(after[told])) / whole if whole > 0.0 else 1.0
 
     def _weighted(self, errors: Sequence[float]) -> float:
         """Root mean square; what the modes that were seen do not tell counts for little."""

@@ -71,7 +71,7 @@ def _held_out(e: Evidence, *, far: bool) -> RuleRow:
     better = not blind and (far or (unseen.falls and not unseen.worsens))
     return RuleRow(
         rule="held_out",
-        found=1 - unseen.share_left,
+        found=1 - unseen.after_rms / unseen.before_rms,
         # where all else is far behind, it is enough that nothing contradicts
         needed=unseen.least_fall if unseen.improves or not far else None if blind else 0.0,
         # too few modes show anything: they cannot contradict, nor can they confirm
