@@ -18,7 +18,7 @@ def test_half_of_a_name_is_called_by_it_half_of_the_time() -> None:
 @given(st.lists(st.floats(0.0, 1.0), min_size=2, max_size=8), st.sampled_from([1, 2]))
 def test_chances_add_up_and_the_usual_way_comes_first(shares: list[float], k: int) -> None:
     near, usual = np.arange(len(shares)), np.sort(np.argsort(-np.array(shares), kind="stable")[:k])
-    ways = ways_of(np.array(shares), near, usual)
+    ways = ways_of(able_of(np.array(shares), near), usual)
     assert ways[0].modes.tolist() == usual.tolist()
     # what is hardly possible is left out: of each of its ways less than a fiftieth
     most = MOST + MOST * (MOST - 1) // 2
@@ -28,17 +28,17 @@ def test_chances_add_up_and_the_usual_way_comes_first(shares: list[float], k: in
 
 
 def test_a_pure_doublet_has_one_way() -> None:
-    (way,) = ways_of(np.array([1.0, 1.0, 0.01]), np.arange(3), np.array([0, 1]))
+    (way,) = ways_of(able_of(np.array([1.0, 1.0, 0.01]), np.arange(3)), np.array([0, 1]))
     assert way.chance == pytest.approx(1.0, abs=1e-3)
 
 
 def test_of_three_lines_that_are_called_alike_any_two_may_be_found() -> None:
-    ways = ways_of(np.array([1.0, 1.0, 0.9]), np.arange(3), np.array([0, 1]))
+    ways = ways_of(able_of(np.array([1.0, 1.0, 0.9]), np.arange(3)), np.array([0, 1]))
     found = {tuple(way.modes.tolist()): way.chance for way in ways}
     assert found.keys() >= {(0, 1), (0, 2), (1, 2)}
     assert found[0, 1] > found[0, 2] == pytest.approx(found[1, 2])
     # where nothing else is called so, two lines are two lines
-    assert len(ways_of(np.array([1.0, 1.0, 0.0]), np.arange(3), np.array([0, 1]))) == 1
+    assert len(ways_of(able_of(np.array([1.0, 1.0, 0.0]), np.arange(3)), np.array([0, 1]))) == 1
 
 
 def test_all_lines_that_may_be_called_by_a_name_are_told_one_by_one() -> None:

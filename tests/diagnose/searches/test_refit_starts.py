@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from statorhom.diagnose.fits import explanations
 from statorhom.diagnose.located.scan import Signature
 from statorhom.diagnose.searches import refit_starts
 from statorhom.diagnose.searches.refit_starts import _as_large, _begun
@@ -64,9 +65,9 @@ def test_from_the_constants_of_a_start_every_size_is_tried(monkeypatch: pytest.M
     monkeypatch.setattr(refit_starts, "scan_starts", lambda *_: [np.array([v]) for v in (3.0, 2.0, 5.0)])
     monkeypatch.setattr(refit_starts, "wide_optima", wide)
     monkeypatch.setattr(refit_starts, "replace", lambda hypothesis, **_: hypothesis)
-    monkeypatch.setattr(refit_starts, "narrowed", lambda rough: rough)
+    monkeypatch.setattr(explanations, "narrowed", lambda rough: rough)
     monkeypatch.setattr(
-        refit_starts, "refitted", lambda _, z: None if z[-1] == 3.0 else SimpleNamespace(objective=z[-1])
+        explanations, "refitted", lambda _, z: None if z[-1] == 3.0 else SimpleNamespace(objective=z[-1])
     )
     hypothesis: Any = SimpleNamespace(study=None, candidates=[SimpleNamespace(parameters=["share"])])
     start = refit_starts.Start(hypothesis, np.array([0.1, 0.2, 9.0]))

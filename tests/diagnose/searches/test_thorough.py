@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from statorhom.diagnose.fits import explanations
 from statorhom.diagnose.fits.explanations import ADEQUATE, WELL
 from statorhom.diagnose.searches import refit_starts
 from statorhom.diagnose.searches import thorough as module
@@ -52,8 +53,8 @@ def searched(monkeypatch: pytest.MonkeyPatch) -> dict[str, int]:
     monkeypatch.setattr(refit_starts, "start_of", start)
     monkeypatch.setattr(module, "shared_by", lambda _: [])
     monkeypatch.setattr(module, "searched_starts", starts)
-    monkeypatch.setattr(module, "narrowed", lambda rough: rough)
-    monkeypatch.setattr(module, "refitted", refitted)
+    monkeypatch.setattr(explanations, "narrowed", lambda rough: rough)
+    monkeypatch.setattr(explanations, "refitted", refitted)
     monkeypatch.setattr(
         module, "explained", lambda r, _: explanation(-0.5 * r.objective, label=r.hypothesis.label)
     )

@@ -24,11 +24,10 @@ FAR_OVER_NOTHING = 20.0
 # this power of e with the chance of what is left in those that were seen. What looks like the truth leaves more of
 # either: of 55 right and 29 false explanations of development tables that led everything else a logistic regression
 # gave 1.0, 1.0 and 5.1 as powers of the three. Standard deviations hold all that mesh, scatter and foot may do, so that
-# right ones leave less than these say. Of the share no more counts than `MOST_LEFT`: errors that hardly
-# fall contradict elsewhere.
+# right ones leave less than these say. Of the share no more counts than `MOST_LEFT`: errors that hardly fall
+# contradict elsewhere.
 PER_SHARE, BY_CHANCE = 400.0, 5.0
 MOST_LEFT = 0.5
-UNUSUAL = 0.2  # chance of a misfit up to which better explanations are sought than what was found
 NEAR_RIVAL = 10.0  # of log evidence: up to which a rival and the best are compared in models of their own
 AS_IT_SHOULD = 0.1  # chance of a misfit from which on there is nothing to explain
 STABLE = 0.8

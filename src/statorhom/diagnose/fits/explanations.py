@@ -24,6 +24,7 @@ _H = TypeVar("_H", bound=AnyHypothesis)
 COARSE = 0.03  # discrepancy with which wide valleys are found
 NARROWING = (0.01, 0.003)
 ADEQUATE = 0.01  # chance of a misfit above which nothing is left to explain
+UNUSUAL = 0.2  # chance of a misfit up to which better explanations are sought than what was found
 WELL = 0.1  # and above which no deeper valley is sought
 UNCERTAIN = ("loss", "shape")  # kinds of features: many and uncertain, they would hide a frequency
 ROWS = 8  # of which one may be grossly wrong
@@ -192,6 +193,12 @@ def narrowed(rough: Refit[_H], steps: Sequence[float] = NARROWING) -> Refit[_H]:
     for discrepancy in steps:
         rough = in_valleys(rough.hypothesis, rough.z, discrepancy) or rough
     return rough
+
+
+def best_narrowed(hypothesis: _H, wide: Sequence[Refit[_H]]) -> Refit[_H] | None:
+    """The best of what optima in wide valleys lead to."""
+    refits = [refitted(hypothesis, narrowed(rough).z) for rough in wide]
+    return min((r for r in refits if r is not None), key=lambda r: r.objective, default=None)
 
 
 def by_degrees(hypothesis: _H, z: np.ndarray) -> Refit[_H] | None:

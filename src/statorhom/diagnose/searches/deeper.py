@@ -12,8 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from statorhom.diagnose.evidence.decision import UNUSUAL
-from statorhom.diagnose.fits.explanations import Explanation, refitted
+from statorhom.diagnose.fits.explanations import UNUSUAL, Explanation, refitted
 from statorhom.diagnose.fits.importance import draws_of
 from statorhom.diagnose.fits.profile import Profile
 from statorhom.diagnose.fits.refit import Refit

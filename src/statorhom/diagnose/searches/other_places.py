@@ -14,8 +14,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from statorhom.diagnose.evidence.decision import NEAR_RIVAL, UNUSUAL
-from statorhom.diagnose.fits.explanations import Explanation, refitted
+from statorhom.diagnose.evidence.decision import NEAR_RIVAL
+from statorhom.diagnose.fits.explanations import UNUSUAL, Explanation, refitted
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.profile import Profile
 from statorhom.diagnose.fits.refit import Refit

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from statorhom.diagnose.fits.explanations import blank, narrowed, refitted, widened
+from statorhom.diagnose.fits.explanations import best_narrowed, blank, narrowed, widened
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.fits.valleys import wide_optima
@@ -270,9 +270,8 @@ def narrowed_starts(start: Start) -> list[Start]:
 def best_of_sizes(start: Start) -> Refit | None:
     """The best optimum that any of a candidate's magnitudes leads to from the constants of a start."""
     constants = start.z[: -len(start.hypothesis.candidates[-1].parameters)]
-    rough = (s.rough for s in _through_sizes(constants, [start]))
-    refits = [refitted(start.hypothesis, narrowed(r).z) for r in rough if r is not None]
-    return min((r for r in refits if r is not None), key=lambda r: r.objective, default=None)
+    wide = [s.rough for s in _through_sizes(constants, [start]) if s.rough is not None]
+    return best_narrowed(start.hypothesis, wide)
 
 
 def _through_sizes(constants: np.ndarray, starts: list[Start]) -> list[Start]:

@@ -13,10 +13,9 @@ from statorhom.diagnose.fits.explanations import (
     ADEQUATE,
     WELL,
     Explanation,
+    best_narrowed,
     explained,
-    narrowed,
     nothing,
-    refitted,
 )
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit
@@ -59,5 +58,4 @@ def best_of_many(start: Start) -> Refit | None:
     """The best optimum that many points all over the prior of the step lead to."""
     found = searched_starts(start.hypothesis, start.z, SEED, REFITTED)
     alike = [rough for rough in found[:NARROWED] if rough.objective <= found[0].objective + ALIKE]
-    refits = [refitted(start.hypothesis, narrowed(rough).z) for rough in alike]
-    return min((r for r in refits if r is not None), key=lambda r: r.objective, default=None)
+    return best_narrowed(start.hypothesis, alike)

@@ -7,7 +7,7 @@ no blurred one.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -34,17 +34,15 @@ class Called:
     chance: float
 
 
-def ways_of(shares: np.ndarray, near: np.ndarray, usual: np.ndarray) -> list[Called]:
+def ways_of(able: Mapping[int, float], usual: np.ndarray) -> list[Called]:
     """Ways in which broken modes may be called by a name, the usual one first; their chances add up to one.
 
     Parameters
     ----------
-    shares : (modes,) of the name in every broken mode.
-    near : numbers of the broken modes that are near enough.
+    able : broken modes that may be called by it, each with its chance (`able_of`).
     usual : (k,) numbers of those that have most of it, as many as it has modes.
     """
-    able = able_of(shares, near)
-    able |= {int(n): able.get(int(n), LEAST) for n in usual}
+    able = dict(able) | {int(n): able.get(int(n), LEAST) for n in usual}
     most = len(usual)
     ways = [tuple(sorted(usual.tolist())), *_some(able, most)]
     found = {some: _together(able, some, MISSED if len(some) == most else 0.0) for some in ways}
@@ -54,7 +52,13 @@ def ways_of(shares: np.ndarray, near: np.ndarray, usual: np.ndarray) -> list[Cal
 
 
 def able_of(shares: np.ndarray, near: np.ndarray) -> dict[int, float]:
-    """Broken modes that may be called by a name, each with its chance; arguments as for `ways_of`."""
+    """Broken modes that may be called by a name, each with its chance.
+
+    Parameters
+    ----------
+    shares : (modes,) of the name in every broken mode.
+    near : numbers of the broken modes that are near enough.
+    """
     chances = chances_of(shares[near])
     likeliest = near[np.argsort(-chances)[:MOST]]
     return {int(n): float(c) for n, c in zip(near, chances, strict=True) if n in likeliest and c > LEAST}

@@ -127,12 +127,11 @@ def response_of(
     """
     if shares is None:
         shares = np.sum(modes.participation[place.numbers] ** 2, axis=0)
-    near = _near(modes, pair)
-    own, *others = ways_of(shares, near, pair.modes)
+    able = able_of(shares, _near(modes, pair))
+    own, *others = ways_of(able, pair.modes)
     shift, split = _seen(modes, place, own.modes)
     ways = tuple(Way(*_seen(modes, place, other.modes), other.chance) for other in others)
-    alone = able_of(shares, near).items()
-    lines = tuple(Way(*_seen(modes, place, np.array([number])), chance) for number, chance in alone)
+    lines = tuple(Way(*_seen(modes, place, np.array([number])), chance) for number, chance in able.items())
     return Response(shift, split, chance=own.chance, ways=ways, lines=lines)
 
 
