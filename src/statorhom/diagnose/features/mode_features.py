@@ -16,7 +16,7 @@ import numpy as np
 from statorhom.diagnose.features.assignment import Keys
 from statorhom.diagnose.features.lost_lines import lost_lines
 from statorhom.diagnose.features.mixed_modes import cost_of
-from statorhom.diagnose.features.third_lines import third_lines
+from statorhom.diagnose.features.third_lines import third_line
 from statorhom.diagnose.measured.feature import LOST, SINGLE, Feature, Silence
 from statorhom.diagnose.measured.measured_test import SHIFT_OWN, SHIFT_PART, MeasuredSplit, MeasuredTest
 from statorhom.diagnose.predicted.prediction import PredictedMode
@@ -64,18 +64,14 @@ def free_features(
         key: [mode for mode, k in zip(modes, keys, strict=True) if k == key] for key in dict.fromkeys(keys)
     }
     typical = _typical_split(test, [rows for key, rows in by_key.items() if key is not None])
-    owns = {
-        key: _Own(hypot(own_sd(error, key), discrepancy), hypot(OWN, discrepancy))
-        for key in by_key
-        if key is not None and key in predicted
-    }
     for key, rows in by_key.items():
         if key is None:
             lost = lost_lines(test, rows, modes, typical)
-            found += [_called_alike(test, one, by_key, predicted, owns) for one in lost]
+            found += [_called_alike(one, by_key, predicted, error, discrepancy) for one in lost]
         elif key in predicted:
+            own = _Own(hypot(own_sd(error, key), discrepancy), hypot(OWN, discrepancy))
             ways = [
-                _mode_features(test, rows, mode, scatter, owns[key], TYPICAL_PART * typical)
+                _mode_features(test, rows, mode, scatter, own, TYPICAL_PART * typical)
                 for mode in predicted[key].called
             ]
             found += min(ways, key=cost_of) if len(ways) > 1 else ways[0]
@@ -85,19 +81,18 @@ def free_features(
 
 
 def _called_alike(
-    test: MeasuredTest,
     lost: Feature,
     by_key: Mapping[ModeKey | None, Sequence[MeasuredMode]],
     predicted: Mapping[ModeKey, PredictedMode],
-    owns: Mapping[ModeKey, _Own],
+    error: ModelError,
+    discrepancy: float,
 ) -> Feature:
     """A lost line, or the third one of the likeliest mode of its name."""
     row = next(m for m in by_key[None] if (m.label,) == lost.rows)
-    measured, sd = log(row.frequency_hz), measured_sd(row)
     thirds = [
-        _frequency(test, lost.rows, line, (measured, line.log_f), sd, own)
-        for key, own in owns.items()
-        for line in third_lines(row, by_key[key], predicted[key])
+        third_line(lost, row, mates, predicted[key], sd_and_least(row, own_sd(error, key), discrepancy))
+        for key, mates in by_key.items()
+        if key is not None and key in predicted
     ]
     return min([lost, *thirds], key=lambda f: cost_of([f]))
 
