@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from statorhom.command_line.blas import one_thread_each
 from statorhom.command_line.exit_codes import guarded
 from statorhom.command_line.progress import progress_bars
 from statorhom.command_line.tables import print_fleet, print_materials, print_measured, print_modes
@@ -144,6 +145,7 @@ def diagnose(
     json: Json = False,
 ) -> None:
     """Say what physics the model left out, where, and how sure that is; writes diagnosis.json and report.html."""
+    one_thread_each()
     from statorhom.api import Study
     from statorhom.command_line.tables import print_diagnosis
 

@@ -60,7 +60,7 @@ def moved(hypothesis: Hypothesis, z: np.ndarray, change: np.ndarray) -> np.ndarr
 
 def test_every_measured_order_has_its_own_mesh_factors(hypothesis: Hypothesis) -> None:
     (stage,) = hypothesis.study.stages
-    error = mesh_error(stage.setup, stage.ring, stage.reference, stage.density)
+    error = mesh_error(stage, stage.reference)
     assert {key[0] for key in error.factors} >= {0, 2, 3}
     assert error.factor((0, 1, 0)) != error.factor((1, 1, 0))
 

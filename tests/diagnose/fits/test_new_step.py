@@ -49,7 +49,7 @@ def stand(
     monkeypatch.setattr(valleys, "refitted", follow)
     own = SimpleNamespace(objective=settled, name="settled")
     monkeypatch.setattr(new_step, "_settled", lambda *_: own)
-    found: Any = new_step._on_its_best_side(best, (0, 1, 2), None)  # type: ignore[arg-type]
+    found: Any = new_step._on_its_best_side(best, (0, 1, 2))  # type: ignore[arg-type]
     return found.name, begun
 
 
@@ -113,14 +113,14 @@ def chosen(
     settled: list[str] = []
     draws = [list(valleys), *drawn]
 
-    def settle(_study: Any, one: SimpleNamespace, _settings: Any) -> SimpleNamespace:
+    def settle(_study: Any, one: SimpleNamespace) -> SimpleNamespace:
         settled.append(one.hypothesis.study)
         return fled.get(one.hypothesis.study, one)
 
     def study_of(stages: tuple[Any, ...]) -> SimpleNamespace:
         if kept is not None:
             kept(stages)
-        return SimpleNamespace(constants=(), stages=(SimpleNamespace(name="stack"),))
+        return SimpleNamespace(constants=(), stages=(SimpleNamespace(name="stack"),), shared=())
 
     study = SimpleNamespace(constants=(), stages=(), with_stages=study_of)
     for name, fake in {
@@ -284,8 +284,7 @@ def settled(monkeypatch: pytest.MonkeyPatch, straight: float, gently: float | No
         monkeypatch.setattr(new_step, name, fake)
     found: Any = optimum(1e-9)
     found.z = None
-    settings: Any = SimpleNamespace(density=None)
-    return new_step._settled(study, found, settings).adequacy, gone  # type: ignore[arg-type]
+    return new_step._settled(study, found).adequacy, gone  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(

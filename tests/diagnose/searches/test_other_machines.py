@@ -144,7 +144,7 @@ def test_a_wrong_length_is_found_by_the_first_step(tmp_path: Path) -> None:
     true = template_hypothesis(tmp_path / "true", {"stack-free.csv": TABLE})
     (stage,) = true.study.stages
     modes = predicted(true.study, stage, true.study.constants.values(np.zeros(len(true))), ())
-    error = mesh_error(stage.setup, stage.ring, stage.reference, stage.density)
+    error = mesh_error(stage, stage.reference)
     lines = [
         f"{np.exp(m.log_f) * error.factor((r, n, rank)):.3f},{r},{n}\n"
         for (r, n, rank), m in modes.items()

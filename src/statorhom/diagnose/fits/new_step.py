@@ -24,6 +24,7 @@ from statorhom.diagnose.fits.valleys import (
 )
 from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.diagnose.predicted.prediction import with_rules
+from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.diagnose.stages.constants import new_constants
 from statorhom.diagnose.stages.stage_model import (
     StageModel,
@@ -84,24 +85,22 @@ def with_step(
     # constants of earlier steps stay while new ones are sought
     wide = wide_optima(Hypothesis(study), trials, most=MOST)
     wide = with_other_sides(Hypothesis(study), wide, places)
-    found = _until_convincing(study, wide[:1], settings)
+    found = _until_convincing(study, wide[:1])
     if not _is_convincing(found[-1]):
         wide = different([*wide, *_of_more_draws(study, z, places, settings)])
         # a basis of a few materials is too stiff elsewhere, and its band lacks the highest modes there; but where modes
         # of one order come near each other, what they are called may differ from basis to basis
         wide = different([*_in_a_basis_that_knows(study, wide), *wide])
         ahead = [w for w in _worth_following(wide) if _is_new(w, found, places)]
-        found += _until_convincing(study, ahead, settings)
+        found += _until_convincing(study, ahead)
     best = found[-1] if _is_convincing(found[-1]) else _best_in_wide_valleys(found)
     left = (w.z for w in wide[:FOLLOWED] if _is_new(w, found, places))
     others = (*(r.z for r in found if r is not best), *left)
-    best = _on_its_best_side(best, places, settings)
+    best = _on_its_best_side(best, places)
     return best.hypothesis.study, best.z, others
 
 
-def _on_its_best_side(
-    best: Refit[Hypothesis], places: Sequence[int], settings: Settings
-) -> Refit[Hypothesis]:
+def _on_its_best_side(best: Refit[Hypothesis], places: Sequence[int]) -> Refit[Hypothesis]:
     """The same, or a deeper one on another side of a constant of which little is known.
 
     A modulus across the sheets moves few modes, and those little: wide valleys forgive a wrong one more than it costs.
@@ -112,7 +111,7 @@ def _on_its_best_side(
     other = on_its_best_side(best, replace(best.hypothesis, held=None), places)
     if other is best:
         return best
-    there = _settled(other.hypothesis.study, other, settings)
+    there = _settled(other.hypothesis.study, other)
     return min(best, there, key=lambda r: r.objective)
 
 
@@ -120,8 +119,10 @@ def _of_more_draws(
     study: StudyModel, z: np.ndarray, places: Sequence[int], settings: Settings
 ) -> list[Refit[Hypothesis]]:
     """Optima in wide valleys from other points than the first ones, between which a valley may lie."""
-    draws = (trials_around(z, places, settings.seed + number) for number in range(1, 1 + DRAWS))
-    return [w for trials in draws for w in wide_optima(Hypothesis(study), trials, most=MOST)]
+    draws = [trials_around(z, places, settings.seed + number) for number in range(1, 1 + DRAWS)]
+    blank = Hypothesis(study)
+    found = side_by_side(lambda trials: wide_optima(blank, trials, most=MOST), draws, [blank, *blank.shared])
+    return [w for wide in found for w in wide]
 
 
 def _is_new(one: Refit[Hypothesis], found: Sequence[Refit[Hypothesis]], places: Sequence[int]) -> bool:
@@ -130,14 +131,12 @@ def _is_new(one: Refit[Hypothesis], found: Sequence[Refit[Hypothesis]], places: 
     return is_apart(one.z[own], (other.z[own] for other in found), DIFFERENT)
 
 
-def _until_convincing(
-    study: StudyModel, valleys: Sequence[Refit[Hypothesis]], settings: Settings
-) -> list[Refit[Hypothesis]]:
+def _until_convincing(study: StudyModel, valleys: Sequence[Refit[Hypothesis]]) -> list[Refit[Hypothesis]]:
     """Optima in models of their own, one after the other until nothing is left to explain."""
     found: list[Refit[Hypothesis]] = []
     for one in valleys:
         # what a coarse mesh is wrong by differs from valley to valley: none is the best before that is known
-        found.append(_settled(study, one, settings))
+        found.append(_settled(study, one))
         if _is_convincing(found[-1]):
             break
     return found
@@ -154,8 +153,8 @@ def _in_a_basis_that_knows(study: StudyModel, wide: Sequence[Refit[Hypothesis]])
     knowing = with_snapshots(stage, materials)
     if all(_moved(_frequencies(stage, m), _frequencies(knowing, m)) < STIFF for m in materials):
         return []
-    hypothesis = Hypothesis(study.with_stages((*before, knowing)))
-    again = (widened(hypothesis, w.z) for w in wide[:KNOWN])
+    blank = Hypothesis(study.with_stages((*before, knowing)))
+    again = side_by_side(lambda w: widened(blank, w.z), wide[:KNOWN], [blank, *blank.shared])
     return different([r for r in again if r is not None])
 
 
@@ -165,11 +164,15 @@ def _worth_following(wide: Sequence[Refit[Hypothesis]]) -> list[Refit[Hypothesis
     near = [w for w in wide if w.objective <= wide[0].objective + FAR_BEHIND]
     if len(near) == len(alike):
         return alike
-    narrower = [
-        (r.objective, w) for w in near if (r := in_valleys(w.hypothesis, w.z, NARROWING[0])) is not None
-    ]
-    best = min(narrower, key=lambda pair: pair[0])[1] if narrower else wide[0]
+    narrower = side_by_side(_narrower, near)
+    best = min(zip(narrower, near, strict=True), key=lambda pair: pair[0])[1]
     return alike if best in alike else [*alike, best]
+
+
+def _narrower(wide: Refit[Hypothesis]) -> float:
+    """What the optimum next to it leaves in narrower valleys; infinite where there is none."""
+    found = in_valleys(wide.hypothesis, wide.z, NARROWING[0])
+    return np.inf if found is None else found.objective
 
 
 def _best_in_wide_valleys(found: Sequence[Refit[Hypothesis]]) -> Refit[Hypothesis]:
@@ -185,7 +188,7 @@ def _wide_objective(found: Refit[Hypothesis]) -> float:
     return np.inf if rough is None else rough.objective
 
 
-def _settled(study: StudyModel, found: Refit[Hypothesis], settings: Settings) -> Refit[Hypothesis]:
+def _settled(study: StudyModel, found: Refit[Hypothesis]) -> Refit[Hypothesis]:
     """Refitted with a basis and mesh factors of its own, until the basis moves no frequency any more."""
     for number in range(ROUNDS):
         stage = study.stages[-1]
@@ -194,8 +197,7 @@ def _settled(study: StudyModel, found: Refit[Hypothesis], settings: Settings) ->
         better = with_reference(stage, materials)
         moved = _moved(before, _frequencies(better, materials))
         if number == 0 or not _is_convincing(found):
-            error = mesh_error(stage.setup, better.ring, materials, settings.density)
-            better = better.with_error(error)
+            better = better.with_error(mesh_error(better, materials))
         study = study.with_stages((*study.stages[:-1], better))
         followed = _followed if number == 0 else refit
         found = followed(Hypothesis(study), found.z)

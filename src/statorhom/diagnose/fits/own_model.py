@@ -57,7 +57,7 @@ def in_its_own_model(
         arcs = (*_arcs(actions, around), *_arcs_elsewhere(drawn, stage, elsewhere))
         near = with_reference(stage, materials, arcs, {} if quick else _examples(stage, materials, actions))
         if not quick and drawn is hypothesis:
-            near = near.with_error(mesh_error(stage.setup, near.ring, materials, stage.density))
+            near = near.with_error(mesh_error(near, materials))
         stages.append(near)
     return drawn.with_stages(tuple(stages))
 

@@ -48,5 +48,5 @@ def redrawn(
         tests = [test.on_core(length) for test in stage.tests]
         known = materials(begun, replace(stage, setup=setup))
         made = stage_model(setup, tests, known, stage.density)
-        stages.append(made.with_error(mesh_error(setup, made.ring, made.reference, stage.density)))
+        stages.append(made.with_error(mesh_error(made, made.reference)))
     return begun.with_stages(tuple(stages))

@@ -78,6 +78,8 @@ class StageModel:
     _narrow: dict[float, TrainedBasis] = field(default_factory=dict, repr=False)
     held_shapes: dict[str, HeldShapes] = field(default_factory=dict, repr=False)
     sensor_responses: dict[tuple[float, ...], Any] = field(default_factory=dict, repr=False)
+    # of the machine, whatever its reference
+    _meshes: Kept = field(default_factory=Kept, repr=False)
 
     @property
     def name(self) -> str:
@@ -88,6 +90,11 @@ class StageModel:
     def model(self) -> AffineModel:
         """The mesh's matrices."""
         return self.ring.model
+
+    @property
+    def finer(self) -> AffineModel:
+        """The matrices of a finer mesh."""
+        return self._meshes.once(FINER, lambda: _assembled(self.setup, self.density.refined(FINER)))
 
     @cached_property
     def heights_m(self) -> tuple[float, ...]:
@@ -260,8 +267,7 @@ def stage_model(
     setup: StageSetup, tests: Sequence[MeasuredTest], snapshots: Sequence[Materials], density: MeshDensity
 ) -> StageModel:
     """A stage at the first of some materials, good near all of them; no mesh factors yet."""
-    assert isinstance(setup.step, StepGeometry)
-    model = assemble(mesh_step(setup.step, density))
+    model = _assembled(setup, density)
     top = BAND * max(mode.frequency_hz for test in tests for mode in test.modes)
     named = [m.order for test in tests for m in test.modes if m.order is not None]
     highest = min(max([*named, 3]) + 1, model.mesh.slots // 2)
@@ -269,11 +275,15 @@ def stage_model(
     return StageModel(setup, tuple(tests), ring, snapshots[0], ModelError(), density)
 
 
-def mesh_error(setup: StageSetup, ring: RingBasis, materials: Materials, density: MeshDensity) -> ModelError:
-    """Mesh factors from two meshes at given materials."""
+def _assembled(setup: StageSetup, density: MeshDensity) -> AffineModel:
     assert isinstance(setup.step, StepGeometry)
-    finer = assemble(mesh_step(setup.step, density.refined(FINER)))
-    orders = sorted({m.order for t in setup.tests for m in t.modes if m.order is not None} or {2, 3, 4})
+    return assemble(mesh_step(setup.step, density))
+
+
+def mesh_error(stage: StageModel, materials: Materials) -> ModelError:
+    """Mesh factors from two meshes at given materials, which the stage's basis knows."""
+    tests, ring, finer = stage.setup.tests, stage.ring, stage.finer
+    orders = sorted({m.order for t in tests for m in t.modes if m.order is not None} or {2, 3, 4})
     fine = problem_at(finer, materials).solve(ring.highest_hz, orders, MOST, workers())
     coarse = FreeModes(ring.solve(materials).modes, (), (), ())
     found = converge([1.0, 1 / FINER], [ring.model.mesh.full_dof, finer.mesh.full_dof], [coarse, fine])
