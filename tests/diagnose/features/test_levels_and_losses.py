@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
-from statorhom.diagnose.features.damping import JOINT, free_losses, loss_of, supported_losses
+from statorhom.diagnose.features.damping import JOINT, free_losses, losses_of, supported_losses
 from statorhom.diagnose.features.levels import level_bases, level_features, slipped
 from statorhom.diagnose.features.supported import SupportedReference
 from statorhom.diagnose.measured.feature import MOST
@@ -44,10 +45,14 @@ def rows(shift: float, rise: float) -> tuple[MeasuredMode, ...]:
 
 def test_a_mode_loses_what_its_regions_and_contacts_lose() -> None:
     study = SimpleNamespace(constants=SimpleNamespace(losses=({"lamination": "a", "winding": "b"},)))
-    stage = SimpleNamespace(setup=SimpleNamespace(index=0))
-    one = mode(KEYS[0], shares={"lamination": 0.7, "winding": 0.2, JOINT: 0.1})
-    found = loss_of(study, stage, one, {"a": 0.002, "b": 0.03}, 0.2)  # type: ignore[arg-type]
-    assert found == pytest.approx(0.7 * 0.002 + 0.2 * 0.03 + 0.1 * 0.2)
+    stage = SimpleNamespace(name="wound", setup=SimpleNamespace(index=0))
+    slips = mode(KEYS[0], shares={"lamination": 0.7, "winding": 0.2, JOINT: 0.1}, friction=0.01)
+    modes = {KEYS[0]: slips, KEYS[1]: mode(KEYS[1])}  # nobody knows where the second one's energy is
+    contact = SimpleNamespace(joint=SimpleNamespace(loss_factor=0.2), touches=lambda stage: stage == "wound")
+    elsewhere = SimpleNamespace(joint=SimpleNamespace(loss_factor=0.5), touches=lambda _: False)
+    actions: Any = [contact, elsewhere, SimpleNamespace(joint=None)]
+    found = losses_of(study, stage, modes, {"a": 0.002, "b": 0.03}, actions)  # type: ignore[arg-type]
+    assert found == {KEYS[0]: pytest.approx(0.7 * 0.002 + 0.2 * 0.03 + 0.1 * 0.2 + 0.01)}
 
 
 def test_no_loss_factor_pulls_harder_than_its_scatter() -> None:

@@ -62,18 +62,23 @@ def with_shares(
     return found
 
 
-def loss_of(
-    study: StudyModel, stage: StageModel, mode: PredictedMode, values: Mapping[str, float], joint: float
-) -> float:
-    """Loss factor of a predicted mode while nothing slips; `joint` is that of a contact."""
+def losses_of(
+    study: StudyModel,
+    stage: StageModel,
+    modes: Modes,
+    values: Mapping[str, float],
+    actions: Sequence[Action],
+) -> dict[ModeKey, float]:
+    """Loss factors of modes whose shares are known, with what the contacts lose that actions bring."""
     own = study.constants.losses[stage.setup.index]
-    total = sum(share * values[own[s]] for s, share in mode.shares.items() if s in own)
-    return max(float(total) + mode.shares.get(JOINT, 0.0) * joint, LEAST)
-
-
-def joint_loss(stage: StageModel, actions: Sequence[Action]) -> float:
-    """Loss factor of the contacts that actions bring."""
-    return sum(a.joint.loss_factor for a in actions if a.joint is not None and a.touches(stage.name))
+    contact = sum(a.joint.loss_factor for a in actions if a.joint is not None and a.touches(stage.name))
+    found = {}
+    for key, mode in modes.items():
+        if mode.shares:
+            total = sum(share * values[own[s]] for s, share in mode.shares.items() if s in own)
+            sticks = max(float(total) + mode.shares.get(JOINT, 0.0) * contact, LEAST)
+            found[key] = sticks + mode.friction
+    return found
 
 
 def free_losses(

@@ -14,8 +14,7 @@ from statorhom.diagnose.features.assignment import NEAR, Keys, Sought, sought
 from statorhom.diagnose.features.damping import (
     free_losses,
     is_damped,
-    joint_loss,
-    loss_of,
+    losses_of,
     supported_losses,
     with_shares,
 )
@@ -44,7 +43,7 @@ from statorhom.diagnose.predicted.followed_modes import Names, names_of, with_pa
 from statorhom.diagnose.predicted.prediction import PredictedMode, acted_materials, predicted
 from statorhom.diagnose.predicted.sensor_response import shifted_response
 from statorhom.diagnose.processes.memory import Memory
-from statorhom.diagnose.stages.constants import sinking_of
+from statorhom.diagnose.stages.constants import scatter_of, sinking_of
 from statorhom.diagnose.stages.stage_model import StageModel
 from statorhom.diagnose.stages.study_model import StudyModel
 from statorhom.model.affine import Materials
@@ -134,9 +133,10 @@ class Hypothesis(AnyHypothesis):
         held: dict[str, Keys | Partners] = {}
         names: dict[str, Names] = {}
         free: list[tuple[Sought, Mapping[ModeKey, PredictedMode]]] = []
+        seen: dict[str, Mapping[ModeKey, PredictedMode]] = {}
         for stage in self.study.stages:
             for test in stage.tests:
-                found = self._predicted(stage, test, values, actions, self.mark(z))
+                seen[test.name] = found = self._predicted(stage, test, values, actions, self.mark(z))
                 names[test.name] = names_of({key: one.mode for key, one in found.items()})
                 if test.support != FREE:
                     held[test.name] = self._partners(stage, test, found, z)
@@ -146,8 +146,10 @@ class Hypothesis(AnyHypothesis):
                     free.append((sought(test, self.modes(test, actions), shown), shown))
         rest = replace(self, held=held, names=names)
         far, near = (rest._with_free(free, reach) for reach in (1.0, NEAR))
+        far._last[z.tobytes()] = far.features_with(z, far._told(z, seen))
         if far.held == near.held:
             return far
+        near._last[z.tobytes()] = near.features_with(z, near._told(z, seen))
         return min(far, near, key=lambda h: float(np.sum(h.residuals(z) ** 2)) + h.charge(z))
 
     def _with_free(
@@ -193,22 +195,32 @@ class Hypothesis(AnyHypothesis):
     def features_with(self, z: FloatArray, moved: Told | None = None) -> tuple[list[Feature], Told]:
         """The same with predictions that were moved, where there are any."""
         values, actions = self.study.constants.values(z[: self.constants]), self.actions(z)
-        assert self.held is not None
         found = density_features(self.study, values, actions)
-        told: dict[str, tuple[StageModel, Predictions]] = {}
+        told = self._told(z) if moved is None else moved
         for stage in self.study.stages:
-            known: dict[str, Mapping[ModeKey, PredictedMode]] = {}
+            known = told[stage.name][1]
             for test in stage.tests:
-                if moved is None:
-                    known[test.name] = self._known(stage, test, values, actions, z)
-                else:
-                    known[test.name] = moved[stage.name][1][test.name]
                 if test.support != FREE:
                     found += self._supported(stage, test, known[test.name], values, actions, self.mark(z))
                 else:
                     found += self._free(stage, test, known, values, actions)
-            told[stage.name] = (stage, known)
         return found, told
+
+    def _told(self, z: FloatArray, seen: Predictions | None = None) -> Told:
+        """What features need of modes, of those that pairing has seen at the same point or anew."""
+        values, actions = self.study.constants.values(z[: self.constants]), self.actions(z)
+        told: dict[str, tuple[StageModel, Predictions]] = {}
+        for stage in self.study.stages:
+            known: dict[str, Mapping[ModeKey, PredictedMode]] = {}
+            for test in stage.tests:
+                if seen is None:
+                    names = self._followed[test.name]
+                    modes = self._predicted(stage, test, values, actions, self.mark(z), names)
+                else:
+                    modes = seen[test.name]
+                known[test.name] = self._needed(stage, test, modes, values, actions)
+            told[stage.name] = (stage, known)
+        return told
 
     @cached_property
     def _followed(self) -> Mapping[str, Names]:
@@ -221,17 +233,16 @@ class Hypothesis(AnyHypothesis):
             found |= with_partners(own, {name: cast(Keys, self.held[name]) for name in own}) if free else own
         return found
 
-    def _known(
+    def _needed(
         self,
         stage: StageModel,
         test: MeasuredTest,
+        modes: Mapping[ModeKey, PredictedMode],
         values: Mapping[str, float],
         actions: Sequence[Action],
-        z: FloatArray,
-    ) -> dict[ModeKey, PredictedMode]:
+    ) -> Mapping[ModeKey, PredictedMode]:
         """Predicted modes that the features of a test need, with their damping."""
         assert self.held is not None
-        modes = self._predicted(stage, test, values, actions, self.mark(z), self._followed[test.name])
         if test.support == FREE:
             # only what has a measured partner matters
             held = set(cast(Keys, self.held[test.name]))
@@ -259,14 +270,8 @@ class Hypothesis(AnyHypothesis):
         actions: Sequence[Action],
     ) -> dict[ModeKey, float]:
         """Loss factors of predicted modes; none where no damping is predicted."""
-        if not self._is_damped(test, actions):
-            return {}
-        contact = joint_loss(stage, actions)
-        return {
-            k: loss_of(self.study, stage, m, values, contact) + m.friction
-            for k, m in modes.items()
-            if m.shares
-        }
+        damped = self._is_damped(test, actions)
+        return losses_of(self.study, stage, modes, values, actions) if damped else {}
 
     def _predicted(
         self,
@@ -276,7 +281,7 @@ class Hypothesis(AnyHypothesis):
         actions: Sequence[Action],
         mark: Sequence[Hashable],
         names: Names | None = None,
-    ) -> dict[ModeKey, PredictedMode]:
+    ) -> Mapping[ModeKey, PredictedMode]:
         """Named free modes; of a supported test those that it is made of, without what is attached."""
         if test.support != FREE:
             actions = [without_attachments(a) for a in actions]
@@ -317,18 +322,13 @@ class Hypothesis(AnyHypothesis):
         modes = known[test.name]
         losses = self._losses(stage, test, modes, values, actions)
         keys, measured = cast(Keys, self.held[test.name]), self.modes(test, actions)
-        scatter = {
-            int(name.split()[1]): complex(value, values[f"{name[:-2]}im"])
-            for name, value in values.items()
-            if name.startswith("scatter") and name.endswith("re")
-        }
         sensor = sum(a.sensor_kg for a in actions if a.touches(stage.name, test.name))
         response = shifted_response(stage, test)
         if sensor and response is not None:
             modes = {
                 k: replace(m, log_f=m.log_f - loading(test, k, response, sensor)) for k, m in modes.items()
             }
-        found = free_features(test, measured, keys, modes, scatter, stage.error, self.discrepancy)
+        found = free_features(test, measured, keys, modes, scatter_of(values), stage.error, self.discrepancy)
         base = level_bases(stage).get(test.name)
         if base is not None:
             lower = next(t for t in stage.tests if t.name == base)

@@ -179,6 +179,15 @@ def held_by_lines(files: StudyFiles, setups: Sequence[StageSetup]) -> list[str]:
     return [t.name for t in tests if isinstance(files.study.support(t.support), LineSupport)]
 
 
+def scatter_of(values: Mapping[str, float]) -> dict[int, complex]:
+    """Order → relative amplitude of what manufacturing scatter splits it by."""
+    return {
+        int(name.split()[1]): complex(value, values[f"{name[:-2]}im"])
+        for name, value in values.items()
+        if name.startswith("scatter") and name.endswith("re")
+    }
+
+
 def sinking_of(test: str) -> str:
     """Name of the coordinate that tells how far a test's lines sink in, in standard deviations."""
     return f"sinking {test}"
