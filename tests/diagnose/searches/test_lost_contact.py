@@ -41,6 +41,7 @@ class Search:
         self.objectives = list(objectives)
         self.lost: list[str] = []  # tests of which what leads lacks a line
         self.fled = False  # whether the winding of what leads has
+        self.own_fled = True  # and whether it still has in a model of its own
         self.symmetric = False  # whether what leads keeps the symmetry
         self.own = 0.0  # the chance of its misfit in a model of its own
         self.before = 0.0  # what the steps before the winding leave of the declared model
@@ -68,13 +69,19 @@ class Search:
         # what few vectors lead to is refitted in all
         monkeypatch.setattr(module, "varied", lambda _, winding: [*winding, 4, 5])
         monkeypatch.setattr(module, "followed_near", self.near)
-        monkeypatch.setattr(module, "typical_where_fled", lambda _, stage, *__: stage if self.fled else None)
+        monkeypatch.setattr(module, "typical_where_fled", self.typical)
         monkeypatch.setattr(module, "refitted", self.refit)
         monkeypatch.setattr(module, "left_before", lambda *_: self.before)
         monkeypatch.setattr(module, "keeps_symmetry", lambda _: self.symmetric)
         monkeypatch.setattr(
-            module, "sharpened", lambda e: self.explanation(e.log_evidence, adequacy=self.own)
+            module,
+            "sharpened",
+            lambda e: self.explanation(e.log_evidence, self.leader(20.0, own=True), adequacy=self.own),
         )
+
+    def typical(self, of: Any, stage: Any, *_: Any) -> Any:
+        has_fled = self.fled and (self.own_fled or not hasattr(of, "own"))
+        return stage if has_fled else None
 
     @staticmethod
     def start(base: Any, candidate: Candidate, z: np.ndarray) -> Start:
@@ -281,6 +288,19 @@ def test_behind_a_winding_that_has_fled_arcs_are_sought_anywhere(monkeypatch: py
     (found,) = with_lost_contact(search.base, [enough], [ARCS], {})
     assert found.refit.objective == 25.0
     assert search.worth == 60.0 and search.reach is ANYWHERE
+
+
+@pytest.mark.parametrize(
+    ("symmetric", "own_fled", "sought"), [(True, False, False), (True, True, True), (False, False, True)]
+)
+def test_a_winding_that_has_not_fled_in_a_model_of_its_own_needs_no_arcs(
+    monkeypatch: pytest.MonkeyPatch, symmetric: bool, own_fled: bool, sought: bool
+) -> None:
+    """Beside a soft end winding arcs were sought for minutes: in the declared winding's model its own seemed unsure."""
+    search = Search(monkeypatch, (25.0,))
+    search.fled, search.symmetric, search.own_fled, search.own = True, symmetric, own_fled, 0.9
+    enough = search.explanation(-50.0, search.leader(20.0, cost=60.0), adequacy=0.5)
+    assert bool(with_lost_contact(search.base, [enough], [ARCS], {})) == bool(search.begun) == sought
 
 
 @pytest.mark.parametrize(("before", "sought"), [(70.0, True), (90.0, False)])

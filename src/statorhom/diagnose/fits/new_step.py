@@ -85,13 +85,16 @@ def with_step(
     # constants of earlier steps stay while new ones are sought
     wide = wide_optima(Hypothesis(study), trials, most=MOST)
     wide = with_other_sides(Hypothesis(study), wide, places)
-    found = _until_convincing(study, wide[:1])
+    first = wide[0]
+    found = _until_convincing(study, [first])
     if not _is_convincing(found[-1]):
         wide = different([*wide, *_of_more_draws(study, z, places, settings)])
         # a basis of a few materials is too stiff elsewhere, and its band lacks the highest modes there; but where modes
         # of one order come near each other, what they are called may differ from basis to basis
-        wide = different([*_in_a_basis_that_knows(study, wide), *wide])
-        ahead = [w for w in _worth_following(wide) if _is_new(w, found, places)]
+        knowing = _in_a_basis_that_knows(study, wide)
+        # where the basis stays the same, the first one's neighbours lead where it led
+        wide = different([*knowing, *(w for w in wide if w is first or is_apart(w.z, [first.z], DIFFERENT))])
+        ahead = [w for w in _worth_following(wide) if w is not first and _is_new(w, found, places)]
         found += _until_convincing(study, ahead)
     best = found[-1] if _is_convincing(found[-1]) else _best_in_wide_valleys(found)
     left = (w.z for w in wide[:FOLLOWED] if _is_new(w, found, places))
@@ -147,14 +150,14 @@ def _is_convincing(found: Refit[Hypothesis]) -> bool:
 
 
 def _in_a_basis_that_knows(study: StudyModel, wide: Sequence[Refit[Hypothesis]]) -> list[Refit[Hypothesis]]:
-    """The same optima where the last step's basis knows the best of them, the best first; none where it did before."""
+    """Optima of which the last step's basis knew too little, where it knows the best of all; the best first."""
     *before, stage = study.stages
     materials = [w.hypothesis.materials(stage, w.z) for w in wide[:KNOWN]]
     knowing = with_snapshots(stage, materials)
-    if all(_moved(_frequencies(stage, m), _frequencies(knowing, m)) < STIFF for m in materials):
-        return []
+    moved = [_moved(_frequencies(stage, m), _frequencies(knowing, m)) for m in materials]
+    poor = [w for w, by in zip(wide, moved, strict=False) if by > STIFF]
     blank = Hypothesis(study.with_stages((*before, knowing)))
-    again = side_by_side(lambda w: widened(blank, w.z), wide[:KNOWN], [blank, *blank.shared])
+    again = side_by_side(lambda w: widened(blank, w.z), poor, [blank, *blank.shared])
     return different([r for r in again if r is not None])
 
 
