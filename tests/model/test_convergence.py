@@ -86,6 +86,17 @@ def test_soft_teeth_take_no_other_modes_place():
     assert [c.frequency_hz for c in found] == [(2895.0, 2860.0), (5172.0, 4899.0)]
 
 
+def test_modes_that_change_places_leave_open_which_is_which():
+    """A clean stack's (3, 1) at 10.3 kHz was 11 standard deviations off: a tooth's mode had passed it (65232)."""
+    coarse = solution(
+        mode(9075.0, 3, 3, 0.004, 1), mode(10271.0, 3, 1, 0.40, 2), mode(10533.0, 3, 1, 0.27, 3)
+    )
+    fine = solution(mode(9049.0, 3, 3, 0.007, 1), mode(9694.0, 3, 3, 0.12, 2), mode(10254.0, 3, 1, 0.51, 3))
+    found = {c.key: c for c in converge([1.0, 1 / 1.5], [100, 200], [coarse, fine])}
+    assert found[3, 3, 0].doubt == 0.0
+    assert found[3, 1, 0].doubt == pytest.approx(np.log(10254.0 / 9694.0))
+
+
 def test_keys_count_modes_of_one_name_from_below():
     modes = [mode(1000.0), mode(1100.0, 2, 1), mode(1200.0), mode(1300.0, None, None)]
     assert list(mode_keys(modes)) == [(2, 0, 0), (2, 1, 0), (2, 0, 1)]

@@ -33,6 +33,8 @@ class ModeConvergence:
     frequency_hz : on these meshes.
     extrapolated_hz : on an infinitely fine one.
     sd : relative standard deviation of the extrapolation.
+    doubt : relative distance on the finest mesh to the mode that has its place there among those of its problem; 0
+        where that is itself. Modes that have changed places are mixed, and which is which is not sure.
     """
 
     key: ModeKey
@@ -40,6 +42,7 @@ class ModeConvergence:
     frequency_hz: tuple[float, ...]
     extrapolated_hz: float
     sd: float
+    doubt: float = 0.0
 
     @property
     def factor(self) -> float:
@@ -78,7 +81,8 @@ def converge(
         for key, mode in table.items():
             finer.setdefault(key[:2], []).append(mode)
         series = _continued(series, finer)
-    return tuple(_mode(key, sizes, dofs, [m.frequency_hz for m in modes]) for key, modes in series.items())
+    finest = {mode.place: mode for mode in solutions[-1].modes}
+    return tuple(_mode(key, sizes, dofs, modes, finest) for key, modes in series.items())
 
 
 def _continued(
@@ -112,10 +116,17 @@ def _unlike(coarse: StatorMode, fine: StatorMode) -> float:
 
 
 def _mode(
-    key: ModeKey, sizes: Sequence[float], dofs: Sequence[int], frequencies: list[float]
+    key: ModeKey,
+    sizes: Sequence[float],
+    dofs: Sequence[int],
+    modes: Sequence[StatorMode],
+    finest: Mapping[tuple[int, int], StatorMode],
 ) -> ModeConvergence:
+    frequencies = [m.frequency_hz for m in modes]
     limit, spread = extrapolate(np.asarray(sizes), np.asarray(frequencies))
-    return ModeConvergence(key, tuple(dofs), tuple(frequencies), limit, spread / limit)
+    there = finest.get((modes[-1].problem, modes[0].column), modes[-1])
+    doubt = abs(float(np.log(there.frequency_hz / modes[-1].frequency_hz)))
+    return ModeConvergence(key, tuple(dofs), tuple(frequencies), limit, spread / limit, doubt)
 
 
 def extrapolate(sizes: np.ndarray, frequencies: np.ndarray) -> tuple[float, float]:

@@ -83,6 +83,12 @@ def test_a_coarse_mesh_leaves_more_of_a_frequency_open_than_its_correction_says(
     assert coarse > 8 * fine
 
 
+def test_a_mode_that_may_be_another_on_a_finer_mesh_says_as_little_as_they_lie_apart() -> None:
+    key, factors = (3, 1, 1), {(3, 1, 1): 0.997}
+    sure, unsure = (own_sd(ModelError(factors=factors, sds=sds), key) for sds in ({}, {key: 0.056}))
+    assert sure < 1e-3 and unsure == pytest.approx(np.hypot(sure, 0.056))
+
+
 @pytest.mark.parametrize("recorded", [False, True])
 def test_a_small_split_beside_large_ones_says_little_of_its_cause(recorded: bool) -> None:
     """In one mode what a local cause bends and what of it shears may nearly cancel: that is its shape, not its size."""

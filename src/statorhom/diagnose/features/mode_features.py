@@ -125,7 +125,8 @@ def own_sd(error: ModelError, key: ModeKey) -> float:
     """Relative model error of a mode that others do not share: what of the mesh's is not in their common pattern."""
     correction = error.factor(key) - 1.0
     alone = ALONE if key[2] >= SINGLE else 0.0
-    return hypot(OWN, OWN_PART * correction, OWN_SQUARE * correction**2, error.borrowed(key), alone)
+    others = error.borrowed(key), error.sds.get(key, 0.0), alone
+    return hypot(OWN, OWN_PART * correction, OWN_SQUARE * correction**2, *others)
 
 
 def doubt_by(frequency: Feature, error: ModelError) -> float:

@@ -287,7 +287,8 @@ def mesh_error(stage: StageModel, materials: Materials) -> ModelError:
     fine = problem_at(finer, materials).solve(ring.highest_hz, orders, MOST, workers())
     coarse = FreeModes(ring.solve(materials).modes, (), (), ())
     found = converge([1.0, 1 / FINER], [ring.model.mesh.full_dof, finer.mesh.full_dof], [coarse, fine])
-    return ModelError.of_factors({c.key: c.factor for c in found})
+    error = ModelError.of_factors({c.key: c.factor for c in found})
+    return replace(error, sds={c.key: c.doubt for c in found if c.doubt > 0.0})
 
 
 def with_snapshots(stage: StageModel, materials: Sequence[Materials]) -> StageModel:
