@@ -54,6 +54,7 @@ from statorhom.diagnose.report_rows import (
     feature_rows,
     frequency_errors,
 )
+from statorhom.diagnose.searches.alone import without_idle_partners
 from statorhom.diagnose.searches.approach import RING, Approach
 from statorhom.diagnose.searches.deeper import in_its_deepest_valley
 from statorhom.diagnose.searches.hidden_materials import beside_hidden_materials
@@ -150,7 +151,8 @@ def _find(
         if found and _is_open_to_pairs(leading):
             found, confirmed = _with_pairs(approach, leading, counts, settings.seed)
         found = without_gross_rows(leading.base.free, found, counts)
-        found = in_its_deepest_valley(at_their_best_places(found, settings.seed), settings.seed)
+        found = without_idle_partners(at_their_best_places(found, settings.seed))
+        found = in_its_deepest_valley(found, settings.seed)
     progress(1)
     none = nothing(leading.base.refit)
     best = found[0] if found else none

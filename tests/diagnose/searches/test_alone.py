@@ -10,7 +10,7 @@ import pytest
 
 from statorhom.diagnose.fits import absence
 from statorhom.diagnose.fits.explanations import PAIR_GAIN, Explanation
-from statorhom.diagnose.searches.alone import with_both_needed
+from statorhom.diagnose.searches.alone import with_both_needed, without_idle_partners
 
 CONSTANTS = 2
 
@@ -67,3 +67,23 @@ def test_a_pair_that_needs_both_stays(monkeypatch: pytest.MonkeyPatch, ends: flo
     instead = found(monkeypatch, {"viscoelastic_winding": -62.0, "end_winding_stiffness": ends})
     assert [e.log_evidence for e in instead] == [-50.0, -52.0]
     assert with_both_needed([], {}) == []
+
+
+@pytest.mark.parametrize(
+    ("ends", "left"),
+    [
+        (-52.0, [("end_winding_stiffness",)]),  # the pair says little more than that
+        (
+            -50.0 - 2 * PAIR_GAIN,
+            [("viscoelastic_winding", "end_winding_stiffness"), ("end_winding_stiffness",)],
+        ),
+    ],
+)
+def test_a_pair_that_one_of_its_effects_comes_near_is_no_rival(
+    ends: float, left: list[tuple[str, ...]]
+) -> None:
+    """A lump of 170 times the noise by recordings came within 2.3 of a lump and a heavy sensor: two names, no verdict."""
+    single, worse = (Explanation((ENDS,), pair(at).refit, at) for at in (ends, ends - 30.0))
+    lone = Explanation((RISE,), pair(-90.0).refit, -90.0)
+    stay = without_idle_partners([pair(-50.0), single, worse, lone])
+    assert [e.effects for e in stay] == [*left, ("end_winding_stiffness",), ("viscoelastic_winding",)]

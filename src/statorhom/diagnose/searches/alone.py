@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from statorhom.diagnose.fits.absence import without
 from statorhom.diagnose.fits.explanations import PAIR_GAIN, Explanation, explained
 
@@ -25,6 +27,23 @@ def with_both_needed(pairs: Sequence[Explanation], counts: dict[str, int]) -> li
     if singles and singles[0].log_evidence > pairs[0].log_evidence - PAIR_GAIN:
         return singles[:1]
     return list(pairs)
+
+
+def without_idle_partners(found: Sequence[Explanation]) -> list[Explanation]:
+    """Explanations without the pairs that gain too little over one of their effects alone.
+
+    A single effect may come to more in models of its own than where the pair was found; a pair that holds it and says
+    little more contradicts no name of it.
+    """
+    singles = {
+        e.effects: e.log_evidence for e in sorted(found, key=lambda e: e.log_evidence) if not e.is_pair
+    }
+    return [
+        e
+        for e in found
+        if not e.is_pair
+        or all(e.log_evidence > singles.get((name,), -np.inf) + PAIR_GAIN for name in e.effects)
+    ]
 
 
 def alone(pair: Explanation, counts: dict[str, int]) -> list[Explanation]:
