@@ -82,7 +82,7 @@ def test_a_pair_that_needs_both_stays(monkeypatch: pytest.MonkeyPatch, ends: flo
 def test_a_pair_that_one_of_its_effects_comes_near_is_no_rival(
     ends: float, left: list[tuple[str, ...]]
 ) -> None:
-    """A lump of 170 times the noise by recordings came within 2.3 of a lump and a heavy sensor: two names, no verdict."""
+    """A lump by recordings came within 2.3 of a lump and a heavy sensor: two names, and no verdict."""
     single, worse = (Explanation((ENDS,), pair(at).refit, at) for at in (ends, ends - 30.0))
     lone = Explanation((RISE,), pair(-90.0).refit, -90.0)
     stay = without_idle_partners([pair(-50.0), single, worse, lone])
