@@ -47,7 +47,8 @@ def without_gross_rows(
 
 
 def _frequencies(found: Refit) -> list[Feature]:
-    return [f for f in found.hypothesis.features(found.z) if f.kind == "frequency" and not f.lost]
+    features = found.hypothesis.features(found.z)
+    return [f for f in features if f.kind == "frequency" and not f.lost and not f.third]
 
 
 def _beyond(found: Refit, most: float) -> frozenset[Group]:

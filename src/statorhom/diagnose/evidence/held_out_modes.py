@@ -106,7 +106,8 @@ def _groups(base: Refit, explanation: Explanation, lacking: Lacking) -> list[Gro
 
 def _paired_rows(r: Refit) -> dict[Group, frozenset[str]]:
     """Modes that have a partner, and the rows that were measured of them."""
-    return {f.group: frozenset(f.rows) for f in r.hypothesis.features(r.z) if f.kind in WEIGHT and not f.lost}
+    features = r.hypothesis.features(r.z)
+    return {f.group: frozenset(f.rows) for f in features if f.kind in WEIGHT and not f.lost and not f.third}
 
 
 def lacked(one: Refit, other: Refit) -> set[Group]:

@@ -50,6 +50,7 @@ def third_line(
                     rows=lost.rows,
                     chance=line.chance,
                     least=sds[1],
+                    third=True,
                 )
             )
     return min(found, key=lambda f: cost_of([f]))

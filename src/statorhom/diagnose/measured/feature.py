@@ -57,6 +57,7 @@ class Feature:
     chance : of the way in which modes are called by its name (`PredictedMode.called`), told with its frequency.
     silence : of a split of which a single line was measured.
     least : `sd` where the model is as exact as models are at best; 0 where that is nothing to tell.
+    third : whether it is of a line beside a mode's own, which has no partner or this one, as constants go.
     """
 
     kind: str
@@ -70,6 +71,7 @@ class Feature:
     silence: Silence | None = None
     chance: float = 1.0
     least: float = 0.0
+    third: bool = False
 
     @property
     def residual(self) -> float:
@@ -112,8 +114,8 @@ class Feature:
 
     @property
     def group(self) -> tuple[str, ModeKey | None]:
-        """What is held out together: all features of one named mode of a test."""
-        return self.test, self.key
+        """What is held out together: all features of one named mode of a test; no constants change it."""
+        return self.test, None if self.third else self.key
 
     @property
     def observed(self) -> frozenset[tuple[str, str | ModeKey | None]]:
