@@ -25,7 +25,7 @@ class Model:
 
     def features(self, _: np.ndarray) -> list[Any]:
         return [
-            SimpleNamespace(kind="frequency", group=("free", k), residual=r, lost=False)
+            SimpleNamespace(kind="frequency", group=("free", k), residual=r, lost=False, third=False)
             for k, r in enumerate(self.residuals)
         ]
 
