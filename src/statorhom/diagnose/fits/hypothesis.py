@@ -29,11 +29,7 @@ from statorhom.diagnose.features.levels import (
     slipped,
 )
 from statorhom.diagnose.features.mode_features import free_features, loading, shift_features, with_rows
-from statorhom.diagnose.features.supported import (
-    predicted_logs,
-    supported_test,
-    without_attachments,
-)
+from statorhom.diagnose.features.supported import predicted_logs, supported_test, without_attachments
 from statorhom.diagnose.features.supported_partners import Partners, partners, supported_features
 from statorhom.diagnose.fits.any_hypothesis import AnyHypothesis
 from statorhom.diagnose.measured.feature import Feature
@@ -146,10 +142,10 @@ class Hypothesis(AnyHypothesis):
                     free.append((sought(test, self.modes(test, actions), shown), shown))
         rest = replace(self, held=held, names=names)
         far, near = (rest._with_free(free, reach) for reach in (1.0, NEAR))
-        far._last[z.tobytes()] = far.features_with(z, far._told(z, seen))
+        far._last[z.tobytes()] = far.features_with(z, far._told(z, values, actions, seen))
         if far.held == near.held:
             return far
-        near._last[z.tobytes()] = near.features_with(z, near._told(z, seen))
+        near._last[z.tobytes()] = near.features_with(z, near._told(z, values, actions, seen))
         return min(far, near, key=lambda h: float(np.sum(h.residuals(z) ** 2)) + h.charge(z))
 
     def _with_free(
@@ -196,7 +192,7 @@ class Hypothesis(AnyHypothesis):
         """The same with predictions that were moved, where there are any."""
         values, actions = self.study.constants.values(z[: self.constants]), self.actions(z)
         found = density_features(self.study, values, actions)
-        told = self._told(z) if moved is None else moved
+        told = self._told(z, values, actions) if moved is None else moved
         for stage in self.study.stages:
             known = told[stage.name][1]
             for test in stage.tests:
@@ -206,9 +202,14 @@ class Hypothesis(AnyHypothesis):
                     found += self._free(stage, test, known, values, actions)
         return found, told
 
-    def _told(self, z: FloatArray, seen: Predictions | None = None) -> Told:
+    def _told(
+        self,
+        z: FloatArray,
+        values: Mapping[str, float],
+        actions: Sequence[Action],
+        seen: Predictions | None = None,
+    ) -> Told:
         """What features need of modes, of those that pairing has seen at the same point or anew."""
-        values, actions = self.study.constants.values(z[: self.constants]), self.actions(z)
         told: dict[str, tuple[StageModel, Predictions]] = {}
         for stage in self.study.stages:
             known: dict[str, Mapping[ModeKey, PredictedMode]] = {}
@@ -270,8 +271,7 @@ class Hypothesis(AnyHypothesis):
         actions: Sequence[Action],
     ) -> dict[ModeKey, float]:
         """Loss factors of predicted modes; none where no damping is predicted."""
-        damped = self._is_damped(test, actions)
-        return losses_of(self.study, stage, modes, values, actions) if damped else {}
+        return losses_of(self.study, stage, modes, values, actions) if self._is_damped(test, actions) else {}
 
     def _predicted(
         self,

@@ -152,10 +152,11 @@ def _is_convincing(found: Refit[Hypothesis]) -> bool:
 def _in_a_basis_that_knows(study: StudyModel, wide: Sequence[Refit[Hypothesis]]) -> list[Refit[Hypothesis]]:
     """Optima of which the last step's basis knew too little, where it knows the best of all; the best first."""
     *before, stage = study.stages
-    materials = [w.hypothesis.materials(stage, w.z) for w in wide[:KNOWN]]
+    best = wide[:KNOWN]
+    materials = [w.hypothesis.materials(stage, w.z) for w in best]
     knowing = with_snapshots(stage, materials)
     moved = [_moved(_frequencies(stage, m), _frequencies(knowing, m)) for m in materials]
-    poor = [w for w, by in zip(wide, moved, strict=False) if by > STIFF]
+    poor = [w for w, by in zip(best, moved, strict=True) if by > STIFF]
     blank = Hypothesis(study.with_stages((*before, knowing)))
     again = side_by_side(lambda w: widened(blank, w.z), poor, [blank, *blank.shared])
     return different([r for r in again if r is not None])
