@@ -74,3 +74,27 @@ def loaded_accelerance(
     own = np.einsum("mkd,mke,ml->klde", moved, moved, curves)
     motion = np.linalg.solve(np.eye(3) - mass_kg * squared[:, None, None] * own, force[..., None])
     return np.asarray(-squared * motion[..., 0, 0])
+
+
+def loaded_from_hammers(
+    lines: np.ndarray,
+    points: list[Dof],
+    hammers: tuple[int, ...],
+    poles: list[tuple[float, float]],
+    radial: np.ndarray,
+    moved: np.ndarray,
+    noise: tuple[float, float],
+    mass_kg: float = MASS_KG,
+) -> FrfSet:
+    """FRFs of all points from several hammers' points, as `loaded_accelerance` has them.
+
+    Parameters
+    ----------
+    radial : (modes, points) of unit modal mass.
+    noise : of each value's magnitude, and of the largest one.
+    """
+    values = np.concatenate([loaded_accelerance(lines, poles, moved, radial[:, h], mass_kg) for h in hammers])
+    normal = np.random.default_rng(4).normal(size=(2, *values.shape)) / np.sqrt(2)
+    sd = np.hypot(noise[0] * np.abs(values), noise[1] * np.abs(values).max())
+    references = tuple(points[h] for h in hammers for _ in points)
+    return FrfSet(lines, tuple(points) * len(hammers), references, values + sd * (normal[0] + 1j * normal[1]))

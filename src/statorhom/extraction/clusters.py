@@ -78,11 +78,13 @@ def tiles(covered: list[slice], lines: int) -> list[slice]:
     return result
 
 
-def nearest(poles: ComplexArray, own: list[int], lines: slice, omega: FloatArray) -> list[int]:
+def nearest(
+    poles: ComplexArray, own: list[int], lines: slice, omega: FloatArray, most: int = NEIGHBOURS
+) -> list[int]:
     """Poles beside those of a window: all that lie inside it, and the nearest on each side."""
     frequency = np.sqrt(poles.real)
     others = [i for i in np.argsort(frequency).tolist() if i not in own and np.isfinite(frequency[i])]
     low, high = omega[lines.start], omega[lines.stop - 1]
-    below = [i for i in others if frequency[i] < low][-NEIGHBOURS:]
-    above = [i for i in others if frequency[i] > high][:NEIGHBOURS]
+    below = [i for i in others if frequency[i] < low][-most:]
+    above = [i for i in others if frequency[i] > high][:most]
     return below + [i for i in others if low <= frequency[i] <= high] + above

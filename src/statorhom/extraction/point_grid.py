@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -56,6 +56,20 @@ class PointGrid:
     relative_sd: FloatArray | None
     hammer_roved: bool
     cells: IntArray
+
+    def at(self, rows: Sequence[int]) -> PointGrid:
+        """The same at some of the points."""
+        chosen = list(rows)
+        number = {row: i for i, row in enumerate(chosen)}
+        return replace(
+            self,
+            points=tuple(self.points[row] for row in chosen),
+            receptance=self.receptance[chosen],
+            measured=self.measured[chosen],
+            repeats=tuple(one[chosen] for one in self.repeats),
+            relative_sd=None if self.relative_sd is None else self.relative_sd[chosen],
+            cells=np.array([(number[a], b) for a, b in self.cells.tolist() if a in number], dtype=int),
+        )
 
 
 def point_grid(frf_sets: Sequence[FrfSet], band_hz: tuple[float, float] | None = None) -> PointGrid:

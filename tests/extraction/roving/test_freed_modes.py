@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from roving_sensor import LINES, MASS_KG, POLES, directions, loaded_accelerance, loaded_frfs, shapes
+from roving_sensor import LINES, MASS_KG, POLES, directions, loaded_frfs, loaded_from_hammers, shapes
 from statorhom.extraction import Extraction, extract
 from statorhom.extraction.doublet_motion import whole_doublets
 from statorhom.recordings.frf_set import FrfSet
@@ -20,13 +20,7 @@ def from_two_hammers() -> FrfSet:
     """A sensor that moves poles by a whole bandwidth, in three directions; doublets split by a tenth of that."""
     poles, modes = shapes(POINTS)
     poles = [(f * (1 + SPLIT * (i % 2)), loss) for i, (f, loss) in enumerate(poles)]
-    every = [loaded_accelerance(LINES, poles, directions(POINTS), modes[:, h], MASS_KG) for h in HAMMERS]
-    values = np.concatenate(every)
-    rng = np.random.default_rng(4)
-    noise = rng.normal(size=(2, *values.shape)) / np.sqrt(2)
-    sd = np.hypot(0.004 * np.abs(values), 3e-4 * np.abs(values).max())
-    references = tuple(POINTS[h] for h in HAMMERS for _ in POINTS)
-    return FrfSet(LINES, tuple(POINTS) * 2, references, values + sd * (noise[0] + 1j * noise[1]))
+    return loaded_from_hammers(LINES, POINTS, HAMMERS, poles, modes, directions(POINTS), (0.004, 3e-4))
 
 
 @pytest.fixture(scope="module")

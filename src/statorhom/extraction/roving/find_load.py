@@ -15,15 +15,18 @@ from statorhom.extraction.pole_price import misfit
 from statorhom.extraction.roving.first_load import first_load
 from statorhom.extraction.roving.load import RovingLoad
 from statorhom.extraction.roving.load_fit import fitted_load
+from statorhom.extraction.roving.plane_alignment import aligned
 from statorhom.extraction.roving.plane_poles import plane_poles
-from statorhom.extraction.roving.rings import rings
+from statorhom.extraction.roving.plane_starts import BROAD, plane_starts
+from statorhom.extraction.roving.rings import Rings, rings
 from statorhom.extraction.set_up_shifts import SetUps
 
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
-_BROAD = 0.03  # loss factor of what is no resonance of its own
 _EXPLAINED = 3.0  # median misfit up to which a load explains a recording, or the modes of the freed one do
+_WELL = 1.5  # misfit around every mode up to which no other load is looked for
+_HOPELESS = 30.0  # median misfit of single planes from which on no load explains all of them
 _MODEL = 0.003  # part of what the load changes that its model may miss
 
 
@@ -34,9 +37,22 @@ def find_load(search: ModeSearch, first: Sequence[FittedWindow]) -> RovingLoad |
     start = _start(first)
     if search.set_ups is not SetUps.POINTS or placed is None or not known or not len(start):
         return None
-    found = plane_poles(search, start, placed)
+    # the first look takes a split doublet for one mode, but so it does with different modes that lie close
+    load = _from(search, start, placed)
+    if load is not None and load.misfit.max() < _WELL:
+        return load
+    other = _from(search, plane_starts(search, placed), placed)
+    found = [one for one in (load, other) if one is not None]
+    return min(found, key=lambda one: float(np.median(one.misfit)), default=None)
+
+
+def _from(search: ModeSearch, start: ComplexArray, placed: Rings) -> RovingLoad | None:
+    """The load that explains a recording, from start poles of its modes as in `plane_poles`."""
+    if not start.size:
+        return None
+    found = aligned(plane_poles(search, start, placed), placed)
     guess = first_load(found, search.unit, placed, search.grid.references)
-    if guess is None:
+    if guess is None or np.median(guess.misfit) > _HOPELESS:
         return None
     load = fitted_load(search, guess)
     return load if np.median(load.misfit) < _EXPLAINED else None
@@ -47,7 +63,7 @@ def _start(first: Sequence[FittedWindow]) -> ComplexArray:
     poles = np.concatenate(
         [np.zeros(0), *(one.fit.modes.poles[distinct(one.fit)] for one in first if len(one.fit.modes))]
     )
-    narrow = poles[poles.imag < _BROAD * poles.real]
+    narrow = poles[poles.imag < BROAD * poles.real]
     return np.asarray(narrow[np.argsort(narrow.real)], dtype=complex)
 
 

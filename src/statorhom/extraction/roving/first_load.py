@@ -14,10 +14,12 @@ from statorhom.extraction.roving.wave import Wave, wave
 from statorhom.recordings.dof import Dof
 
 FloatArray = npt.NDArray[np.float64]
+ComplexArray = npt.NDArray[np.complex128]
 
-_TELLING = 0.3  # of the largest fall from plane to plane: modes whose planes tell the mass
+_TELLING = 0.3  # of the largest weight: modes whose planes tell the mass
 _OWN = (0.3, 2.0)  # of the common mass: limits of what one mode's planes tell alone
 _LEAST_LOAD = 1e-7
+_FAINT = 0.02  # of a doublet's load: what a mode inside the reach of its poles has that is but its image
 
 
 def first_load(found: PlanePoles, unit: float, rings: Rings, references: Sequence[Dof]) -> RovingLoad | None:
@@ -35,25 +37,50 @@ def first_load(found: PlanePoles, unit: float, rings: Rings, references: Sequenc
     fallen = -np.log(found.poles.real.T)
     fallen = fallen - fallen.mean(axis=1, keepdims=True)
     masses = _masses(waves, fallen)
-    common = _weighted_median(masses, np.ptp(fallen, axis=1))
+    # planes that move alike tell no mass, whatever else lets their poles differ
+    varied = np.minimum(1.0, np.ptp(mobility, axis=1) / mobility.mean(axis=1))
+    weights = np.ptp(fallen, axis=1) * varied
+    common = _weighted_median(masses, weights)
     if common is None:
         return None
-    tells = np.isfinite(masses) & (np.ptp(fallen, axis=1) > _TELLING * np.ptp(fallen, axis=1).max())
+    tells = np.isfinite(masses) & (weights > _TELLING * weights.max())
     own = np.where(tells, np.clip(masses, _OWN[0] * common, _OWN[1] * common), common)
     mean = np.maximum(own * mobility.mean(axis=1), -fallen.min(axis=1))
     load = np.expm1(mean[:, None] + fallen)
     loss = (found.poles.imag / found.poles.real).mean(axis=0)
     bare = np.mean(found.poles.real.T * (1 + load), axis=1) * (1 + 1j * loss) * unit
-    exact = np.array([load_of(row * unit, bare) for row in found.poles]).T
+    poles = found.poles * unit
+    kept = ~_are_images(poles.real, bare, _exact(poles, bare))
+    exact = _exact(poles[:, kept], bare[kept])
     return RovingLoad(
-        bare,
-        np.array([one.order for one in waves]),
-        np.maximum(exact.real, _LEAST_LOAD),
-        np.full(load.shape, np.inf),
-        np.zeros((count, 2)),
-        found.misfit.mean(axis=0),
+        bare[kept],
+        np.array([one.order for one in waves])[kept],
+        exact,
+        np.full(exact.shape, np.inf),
+        np.zeros((len(exact), 2)),
+        found.misfit.mean(axis=0)[kept],
         rings,
     )
+
+
+def _exact(poles: ComplexArray, bare: ComplexArray) -> FloatArray:
+    """Loads that move the bare poles to those of every plane, shape (modes, planes)."""
+    return np.maximum(np.array([load_of(row, bare) for row in poles]).T.real, _LEAST_LOAD)
+
+
+def _are_images(places: FloatArray, bare: ComplexArray, load: FloatArray) -> npt.NDArray[np.bool_]:
+    """Modes that stay where a doublet moves: its half that does not move radially, which scatter lets the sensor see.
+
+    Parameters
+    ----------
+    places : array, shape (planes, modes)
+        ω² of the poles in every plane.
+    load : array, shape (modes, planes)
+    """
+    low, high = places.min(axis=0), places.max(axis=0)
+    inside = (low[:, None] > low - bare.imag) & (high[:, None] < bare.real + bare.imag)
+    faint = load.max(axis=1)[:, None] < _FAINT * load.max(axis=1)
+    return np.asarray(np.any(inside & faint, axis=1))
 
 
 def _masses(waves: Sequence[Wave], fallen: FloatArray) -> FloatArray:
@@ -66,12 +93,12 @@ def _masses(waves: Sequence[Wave], fallen: FloatArray) -> FloatArray:
     return np.array(found)
 
 
-def _weighted_median(masses: FloatArray, spans: FloatArray) -> float | None:
-    """Of the modes that move most; None where they tell no mass."""
-    telling = np.isfinite(masses) & (spans > _TELLING * spans.max(initial=0.0))
+def _weighted_median(masses: FloatArray, weights: FloatArray) -> float | None:
+    """Of the modes that weigh most; None where they tell no mass."""
+    telling = np.isfinite(masses) & (weights > _TELLING * weights.max(initial=0.0))
     if not telling.any():
         return None
     order = np.argsort(masses[telling])
-    share = np.cumsum(spans[telling][order])
+    share = np.cumsum(weights[telling][order])
     middle = float(masses[telling][order][np.searchsorted(share, 0.5 * share[-1])])
     return middle if middle > 0 else None

@@ -1,166 +1,196 @@
-"""Maximum-likelihood fit of a sensor's load, doublet by doublet.
+"""Maximum-likelihood fit of a sensor's load, cluster by cluster of doublets.
 
-With the denominator of the load a recording's FRFs are those of the structure without it, whose poles stay and whose
-residues are linear: they are eliminated, and Gauss–Newton is left with a few real unknowns per doublet.
+Without the load's denominator D a recording's FRFs are those of the structure alone, whose poles stay and whose
+residues are linear: they are eliminated (variable projection, its Jacobian after Kaufman 1975), and Gauss–Newton is
+left with a few real unknowns per doublet. The loads of a plane change the FRFs of that plane alone.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
-from functools import partial
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.extraction.clusters import cluster_lines
-from statorhom.extraction.modal_model import Window, columns, fitted, solve_linear
+from statorhom.extraction.clusters import cluster_lines, clusters, nearest
+from statorhom.extraction.modal_model import Linear, Modes, Window, columns, fitted, projected, solve_linear
 from statorhom.extraction.mode_search import ModeSearch
 from statorhom.extraction.roving.load import RovingLoad
-from statorhom.extraction.roving.plane_poles import alone, nearest_modes, single_reference
+from statorhom.extraction.roving.load_unknowns import LoadUnknowns
+from statorhom.extraction.roving.plane_poles import NEAREST, alone, single_reference
 
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
-Residual = Callable[[FloatArray], tuple[ComplexArray, int]]
 
-_ROUNDS, _STEPS, _TRIES = 3, 8, 4
-_STEP = 1e-5  # of derivatives
-_FIRST_SPLIT = 0.03  # of the loss factor
-_SETTLED = 1e-3  # of χ²
-_PLACE = 0.5  # of the mean load: standard deviation of a doublet's place from its first guess
-_LARGEST_SPLIT, _LARGEST_LOAD = 0.02, 0.2
+_ROUNDS, _STEPS, _TRIES = 5, 8, 5
+_STEP = 1e-7  # of derivatives: along its valleys the objective hardly falls
+_SETTLED = 1e-3  # of χ², and of the loss factor what loads may still change
 
 
 def fitted_load(search: ModeSearch, load: RovingLoad) -> RovingLoad:
-    """Refine loads, splits and damping of all doublets in turn until none changes the misfit."""
+    """Refine loads, splits and damping of all clusters of doublets in turn until none changes the misfit."""
+    groups, guess = clusters(load.poles), load
     for _ in range(_ROUNDS):
         before = load.load
-        for mode in range(len(load)):
-            load = _fit_mode(search, load, mode)
+        for own in groups:
+            noise = max(1.0, float(load.misfit[own].min()))
+            load = _fit_cluster(search, load, LoadUnknowns(tuple(own), guess, noise))
         loss = load.poles.imag / load.poles.real
         if np.max(np.abs(load.load - before) / loss[:, None], initial=0.0) < _SETTLED:
             break
     return load
 
 
-def _fit_mode(search: ModeSearch, load: RovingLoad, mode: int) -> RovingLoad:
-    residual = _residual(search, load, mode)
-    start = _unknowns(load, mode)
-    first, freedom = residual(start)
-    if load.orders[mode] > 0 and not load.split[mode].any():
-        # two equal poles are one column
-        start[-2:] = _FIRST_SPLIT * load.poles[mode].imag / load.poles[mode].real / np.sqrt(2)
-    x, chi2, normal = _minimized(residual, start, partial(_is_physical, load))
-    if not chi2 < np.vdot(first, first).real:
-        return replace(load, misfit=_with(load.misfit, mode, np.vdot(first, first).real / freedom))
-    load = _with_unknowns(load, mode, x)
-    planes = load.load.shape[1]
-    # of the loads against each other: with the place all of them change alike
-    others = np.delete(np.arange(len(x)), planes + 1)
-    covariance = np.linalg.pinv(normal[np.ix_(others, others)], hermitian=True)
-    sd = np.sqrt(np.diag(covariance)[:planes] * max(chi2 / freedom, 1.0) / 2)
+@dataclass(frozen=True, eq=False)
+class _Problem:
+    """Lines around a cluster and what its fit leaves as it is.
+
+    `others` is the denominator without the cluster's own parts, shape (points, lines); `beside` are the modes that are
+    fitted with it.
+    """
+
+    window: Window
+    unit: float
+    others: ComplexArray
+    beside: Modes
+    unknowns: LoadUnknowns
+
+    @property
+    def squared(self) -> FloatArray:
+        return self.window.squared * self.unit
+
+    def denominator(self, load: RovingLoad) -> ComplexArray:
+        """Of every point, averaged over the bins, shape (points, bins)."""
+        own = np.sum([load.part(m, self.squared) for m in self.unknowns.own], axis=0)
+        return self.window.binned(self.others - own)
+
+    def columns(self, load: RovingLoad) -> ComplexArray:
+        """Own resonances, those beside and residual terms, shape (columns, bins)."""
+        freed = single_reference(self.window)
+        return columns(freed, alone(self.unknowns.halves(load) / self.unit), self.beside)[0, :, 0]
+
+
+@dataclass(frozen=True, eq=False)
+class _State:
+    """Fit at given unknowns: arrays over FRFs and bins, of the freed recording."""
+
+    load: RovingLoad
+    denominator: ComplexArray
+    flat: ComplexArray
+    linear: Linear
+    weights: FloatArray
+    residual: ComplexArray
+    objective: float
+
+    @property
+    def freedom(self) -> int:
+        return max(int(np.count_nonzero(self.weights)) - self.linear.coefficients.size, 1)
+
+    @property
+    def misfit(self) -> float:
+        return float(self.linear.chi2.sum()) / self.freedom
+
+
+def _fit_cluster(search: ModeSearch, load: RovingLoad, unknowns: LoadUnknowns) -> RovingLoad:
+    problem, own = _problem(search, load, unknowns), list(unknowns.own)
+    first = _state(problem, load)
+    best, normal = _minimized(problem, _state(problem, problem.unknowns.split(load)))
+    if not best.objective < first.objective:
+        best, normal = first, _normal(problem, first)[0]
+    sd = problem.unknowns.load_sd(normal) * np.sqrt(max(best.misfit, 1.0) / 2)
+    found = best.load
     return replace(
-        load, load_sd=_with(load.load_sd, mode, sd), misfit=_with(load.misfit, mode, chi2 / freedom)
+        found,
+        load_sd=_with(found.load_sd, own, sd),
+        misfit=_with(found.misfit, own, np.full(len(own), best.misfit)),
     )
 
 
-def _unknowns(load: RovingLoad, mode: int) -> FloatArray:
-    """Loads of the planes, loss factor, relative change of the place and, of doublets, the split."""
-    loss = load.poles[mode].imag / load.poles[mode].real
-    split = load.split[mode] if load.orders[mode] > 0 else np.zeros(0)
-    return np.concatenate([load.load[mode], [loss, 0.0], split])
-
-
-def _with_unknowns(load: RovingLoad, mode: int, x: FloatArray) -> RovingLoad:
-    planes = load.load.shape[1]
-    split = x[planes + 2 :] if load.orders[mode] > 0 else np.zeros(2)
-    return replace(
-        load,
-        load=_with(load.load, mode, x[:planes]),
-        poles=_with(load.poles, mode, load.poles[mode].real * (1 + x[planes + 1]) * (1 + 1j * x[planes])),
-        split=_with(load.split, mode, split),
-    )
-
-
-def _is_physical(load: RovingLoad, x: FloatArray) -> bool:
-    planes = load.load.shape[1]
-    loads, loss, split = x[:planes], x[planes], x[planes + 2 :]
-    return bool(
-        loads.min() > 0
-        and loads.max() < _LARGEST_LOAD
-        and loss > 0
-        and np.linalg.norm(split) < _LARGEST_SPLIT
-    )
-
-
-def _with(array: npt.NDArray, row: int, value: object) -> npt.NDArray:
+def _with(array: FloatArray, rows: list[int], values: FloatArray) -> FloatArray:
     changed = array.copy()
-    changed[row] = value
+    changed[rows] = values
     return changed
 
 
-def _residual(search: ModeSearch, load: RovingLoad, mode: int) -> Residual:
-    """Weighted residuals around one mode and their degrees of freedom, as a function of its unknowns."""
-    lines = cluster_lines(_places(load, mode) / search.unit, search.omega)
+def _problem(search: ModeSearch, load: RovingLoad, unknowns: LoadUnknowns) -> _Problem:
+    own = list(unknowns.own)
+    lines = cluster_lines(unknowns.places(load) / search.unit, search.omega)
     window = search.window(lines)
     squared = window.squared * search.unit
-    others = load.denominator(squared) + load.part(mode, squared)
-    halves = [load.halves(m) for m in nearest_modes(load.poles, [mode])]
-    beside = alone(np.unique(np.array(halves).ravel()) / search.unit)
-    planes = load.load.shape[1]
-
-    def residual(x: FloatArray) -> tuple[ComplexArray, int]:
-        changed = _with_unknowns(load, mode, x)
-        own = alone(np.unique(changed.halves(mode)) / search.unit)
-        freed = single_reference(_freed(window, others - changed.part(mode, squared)))
-        phi = columns(freed, own, beside)
-        linear = solve_linear(freed, phi)
-        flat = phi.reshape(1, phi.shape[1], -1)
-        rest = freed.values.reshape(len(freed.values), -1) - fitted(linear.coefficients / linear.norms, flat)
-        rest = rest * np.sqrt(freed.weights.reshape(len(freed.values), -1))
-        # only a split tells where a doublet lies without the sensor
-        kept = x[planes + 1] / (_PLACE * load.load[mode].mean())
-        return np.append(rest.ravel(), kept), max(
-            int(np.count_nonzero(freed.weights)) - linear.coefficients.size, 1
-        )
-
-    return residual
+    parts = np.sum([load.part(m, squared) for m in own], axis=0)
+    near = nearest(load.poles / search.unit, own, lines, search.omega, NEAREST)
+    halves = np.unique(np.array([load.halves(m) for m in near], dtype=complex).ravel())
+    others = load.denominator(squared) + parts
+    return _Problem(window, search.unit, others, alone(halves / search.unit), unknowns)
 
 
-def _places(load: RovingLoad, mode: int) -> ComplexArray:
-    """Where the mode's poles lie, with and without the sensor."""
-    pole = load.poles[mode]
-    return np.array([pole, *(pole / (1 + load.load[mode]))])
+def _state(problem: _Problem, load: RovingLoad) -> _State:
+    window, denominator = problem.window, problem.denominator(load)[:, None]
+    freed = single_reference(
+        replace(window, values=window.values * denominator, weights=window.weights / np.abs(denominator) ** 2)
+    )
+    flat = problem.columns(load)
+    linear = solve_linear(freed, flat[None, :, None])
+    rest = freed.values[:, 0] - fitted(linear.coefficients / linear.norms, flat[None])
+    kept = problem.unknowns.kept(load)
+    objective = float(linear.chi2.sum() + kept @ kept)
+    of_frfs = np.repeat(denominator[:, 0], window.values.shape[1], axis=0)
+    return _State(load, of_frfs, flat, linear, freed.weights[:, 0], rest, objective)
 
 
-def _freed(window: Window, denominator: ComplexArray) -> Window:
-    mean = window.binned(denominator)[:, None]
-    return replace(window, values=window.values * mean, weights=window.weights / np.abs(mean) ** 2)
+def _slopes(problem: _Problem, state: _State) -> ComplexArray:
+    """Change of the residuals with the unknowns of every mode, those of all planes' loads in one, over `_STEP`.
+
+    Shape (modes · unknowns of one, FRFs, bins), with the linear unknowns eliminated.
+    """
+    amplitude = state.linear.coefficients / state.linear.norms
+    model = amplitude @ state.flat
+    references = len(amplitude) // len(problem.window.values)
+    slopes = []
+    for changed in problem.unknowns.steps(state.load, _STEP):
+        moved = np.repeat(problem.denominator(changed), references, axis=0)
+        wave = amplitude @ (problem.columns(changed) - state.flat)
+        slope = (model * (moved / state.denominator - 1) - wave) / _STEP
+        inner = projected(state.flat[None], state.weights * slope) / state.linear.norms
+        taken = np.einsum("kab,kb->ka", state.linear.inverse, inner) / state.linear.norms
+        slopes.append(slope - taken @ state.flat)
+    return np.array(slopes)
 
 
-def _minimized(
-    residual: Residual, x: FloatArray, allowed: Callable[[FloatArray], bool]
-) -> tuple[FloatArray, float, FloatArray]:
-    """Levenberg–Marquardt with differences: unknowns, χ² and half its curvature."""
-    rest, _ = residual(x)
-    chi2, damping = np.vdot(rest, rest).real, 1e-3
+def _normal(problem: _Problem, state: _State) -> tuple[FloatArray, FloatArray]:
+    """Half the curvature of the objective and half its slope over the unknowns."""
+    unknowns, slopes = problem.unknowns, _slopes(problem, state)
+    normal, slope = unknowns.prior(state.load)
+    references = len(state.residual) // len(problem.window.values)
+    plane = np.repeat(state.load.rings.plane, references)
+    for z in range(unknowns.planes):
+        rows, places = plane == z, unknowns.of_plane(z)
+        here = slopes[:, rows].reshape(len(slopes), -1)
+        weighed = here.conj() * state.weights[rows].ravel()
+        normal[np.ix_(places, places)] += (weighed @ here.T).real
+        slope[places] += (weighed @ state.residual[rows].ravel()).real
+    return normal, slope
+
+
+def _minimized(problem: _Problem, state: _State) -> tuple[_State, FloatArray]:
+    """Levenberg–Marquardt: the best state, and half the curvature there or one step before."""
+    normal, slope = _normal(problem, state)
+    damping = 1e-3
     for _ in range(_STEPS):
-        steps = _STEP * np.eye(len(x))
-        slopes = np.array([(residual(x + step)[0] - rest) / _STEP for step in steps])
-        normal, gradient = (slopes.conj() @ slopes.T).real, (slopes.conj() @ rest).real
         accepted = None
         for _ in range(_TRIES):
-            trial = x - np.linalg.solve(normal + damping * np.diag(np.diag(normal)), gradient)
-            found = residual(trial)[0] if allowed(trial) else np.full_like(rest, np.inf)
-            if np.vdot(found, found).real < chi2:
-                accepted = trial, found
+            lifted = normal + damping * np.diag(np.maximum(np.diag(normal), np.finfo(float).tiny))
+            step: FloatArray = -np.linalg.solve(lifted, slope).astype(float)
+            trial = _state(problem, problem.unknowns.moved(state.load, step))
+            if trial.objective < state.objective:
+                accepted = trial
                 break
             damping *= 10
         if accepted is None:
             break
-        gained = chi2 - np.vdot(accepted[1], accepted[1]).real
-        x, rest = accepted
-        chi2, damping = chi2 - gained, max(damping / 10, 1e-9)
-        if gained < _SETTLED * chi2:
+        gained = state.objective - accepted.objective
+        state, damping = accepted, max(damping / 10, 1e-9)
+        if gained < _SETTLED * state.objective:
             break
-    return x, float(chi2), normal
+        normal, slope = _normal(problem, state)
+    return state, normal

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.extraction.clusters import cluster_lines, clusters
+from statorhom.extraction.clusters import cluster_lines, clusters, nearest
 from statorhom.extraction.modal_model import Modes, Window, columns, solve_linear, steady_modes
 from statorhom.extraction.mode_search import ModeSearch
 from statorhom.extraction.roving.rings import Rings
@@ -19,7 +18,7 @@ ComplexArray = npt.NDArray[np.complex128]
 IntArray = npt.NDArray[np.int_]
 
 NEAREST = 6
-"""Modes beside a cluster that are fitted with it."""
+"""Modes on each side of a window that are fitted with its own."""
 
 _STARTS = np.linspace(-1.5, 1.5, 13)  # half-power bandwidths
 _ROUNDS = 5
@@ -57,33 +56,26 @@ def alone(poles: npt.ArrayLike) -> Modes:
     return steady_modes(found, np.ones((len(found), 1), dtype=complex))
 
 
-def nearest_modes(poles: ComplexArray, own: Sequence[int]) -> list[int]:
-    """Numbers of the modes beside some."""
-    middle = np.sqrt(poles[list(own)].real).mean()
-    others = [m for m in range(len(poles)) if m not in own]
-    return sorted(others, key=lambda m: abs(np.sqrt(poles[m].real) - middle))[:NEAREST]
-
-
 def plane_poles(search: ModeSearch, start: ComplexArray, rings: Rings) -> PlanePoles:
     """Fit the poles of every plane, cluster by cluster, with the neighbours where they are in that plane.
 
     Parameters
     ----------
     search : of the recording; gives windows of lines.
-    start : complex array, shape (modes,)
-        A pole of every mode, wherever the first look found it.
+    start : complex array, shape (modes,) or (planes, modes)
+        A pole of every mode, wherever the first look found it, or in every plane.
     """
     planes, points = len(rings.heights_m), len(rings.plane)
     state = PlanePoles(
-        np.repeat(start[None], planes, axis=0),
-        np.zeros((points, len(search.grid.references), len(start)), dtype=complex),
-        np.ones((planes, len(start))),
+        np.array(np.broadcast_to(start, (planes, start.shape[-1]))),
+        np.zeros((points, len(search.grid.references), start.shape[-1]), dtype=complex),
+        np.ones((planes, start.shape[-1])),
     )
-    groups = clusters(start)
+    groups = clusters(state.poles.mean(axis=0))
     for number in range(_ROUNDS):
         before = state.poles.copy()
         for own in groups:
-            _fit_cluster(search, rings, state, own, scan=number == 0)
+            _fit_cluster(search, rings, state, own, scan=number == 0 and start.ndim == 1)
         if np.max(np.abs(state.poles - before) / before.imag, initial=0.0) < _SETTLED:
             break
     return state
@@ -94,7 +86,7 @@ def _fit_cluster(search: ModeSearch, rings: Rings, state: PlanePoles, own: list[
     window = search.window(lines)
     for z, rows in enumerate(rings.members):
         here = single_reference(replace(window, values=window.values[rows], weights=window.weights[rows]))
-        beside = alone(state.poles[z, nearest_modes(state.poles[z], own)])
+        beside = alone(state.poles[z, nearest(state.poles[z], own, lines, search.omega, NEAREST)])
         start = state.poles[z, own]
         fit = fit_window(here, alone(_scanned(here, start, beside) if scan else start), beside)
         state.poles[z, own] = fit.modes.poles

@@ -33,7 +33,7 @@ def wave(residues: ComplexArray, rings: Rings, references: Sequence[Dof]) -> Wav
     The wave at the hammer's own place is φ_h²; both halves move a sensor, for it turns them.
     """
     values = residues.real * rings.signs[:, None]
-    order = _order(values, rings)
+    order = int(np.argmax(order_energies(residues, rings).sum(axis=0)))
     coefficients = _fitted(values, rings, order)
     rows = [_mobility(coefficients[..., j], one, rings, order) for j, one in enumerate(references)]
     # what the hammers see of the mode weighs
@@ -41,12 +41,14 @@ def wave(residues: ComplexArray, rings: Rings, references: Sequence[Dof]) -> Wav
     return Wave(order, np.average(rows, axis=0, weights=weight))
 
 
-def _order(values: FloatArray, rings: Rings) -> int:
-    energy = []
+def order_energies(residues: ComplexArray, rings: Rings) -> FloatArray:
+    """Energy of every circumferential order in every plane, shape (planes, orders), of residues as in `wave`."""
+    values = residues.real * rings.signs[:, None]
+    energies = []
     for order in range(rings.highest_order + 1):
         planes = zip(rings.members, _fitted(values, rings, order), strict=True)
-        energy.append(sum(float(np.sum((_around(rings, rows, order) @ one) ** 2)) for rows, one in planes))
-    return int(np.argmax(energy))
+        energies.append([float(np.sum((_around(rings, rows, order) @ one) ** 2)) for rows, one in planes])
+    return np.array(energies).T
 
 
 def _around(rings: Rings, rows: npt.NDArray[np.int_], order: int) -> FloatArray:
