@@ -45,7 +45,7 @@ def frfs() -> FrfSet:
     poles = [(f * (1 + SPLIT * half), LOSS) for f, _, _ in DOUBLETS for half in (0, 1)]
     radial = shapes()
     moved = np.stack([radial, np.zeros_like(radial), np.zeros_like(radial)], axis=2)
-    return loaded_from_hammers(LINES, POINTS, HAMMERS, poles, radial, moved, (0.003, 1e-4), MASS_KG)
+    return loaded_from_hammers(LINES, POINTS, HAMMERS, poles, radial, moved, (0.001, 3e-5), MASS_KG)
 
 
 @pytest.fixture(scope="module")
