@@ -78,6 +78,14 @@ def test_no_step_takes_a_plane_s_load_away() -> None:
     assert found.load[1, 0] - load.load[1, 0] == pytest.approx(0.001)
 
 
+def test_no_step_carries_a_mode_off() -> None:
+    load = a_load()
+    step = np.zeros(12)
+    step[3] = -1.5
+    found = LoadUnknowns((0, 1), load).moved(load, step)
+    assert found.poles[0].real == pytest.approx(0.98 * load.poles[0].real)
+
+
 def test_the_first_guess_leaves_out_what_stays_where_a_doublet_moves() -> None:
     """A doublet falls by 2 and 1 % in its planes; beside it something of order 6 stays."""
     z = np.array([point.position[2] for point in POINTS if point.position is not None])

@@ -23,6 +23,7 @@ _PLACE = 0.2  # of the mean load: standard deviation of a doublet's place from i
 _SMALLEST_LOAD, _LARGEST_LOAD, _LARGEST_SPLIT = 1e-7, 0.2, 0.02
 _LEAST_LOSS = 1e-6
 _TO_ZERO = 0.9  # of the way to no load, at most in one step
+_LARGEST_MOVE = 0.02  # of a place in one step, of ω²
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,11 +112,13 @@ class LoadUnknowns:
         )
 
     def _shortened(self, load: RovingLoad, step: FloatArray) -> FloatArray:
-        """The same step, that of a mode as a whole shorter where it would leave a plane without load or less."""
+        """The same step, that of a mode as a whole shorter where it would take a plane's load or carry the mode off."""
         steps = step.reshape(len(self.own), -1).copy()
         for row, m in zip(steps, self.own, strict=True):
             fall = np.max(-row[: self.planes] / load.load[m], initial=0.0)
             row *= min(1.0, _TO_ZERO / fall) if fall > 0 else 1.0
+            place = abs(row[self.planes + 1])
+            row *= min(1.0, _LARGEST_MOVE / place) if place > 0 else 1.0
         return np.asarray(steps.ravel())
 
     def _changed(self, load: RovingLoad, step: FloatArray) -> RovingLoad:
