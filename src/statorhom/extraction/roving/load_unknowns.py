@@ -15,11 +15,9 @@ ComplexArray = npt.NDArray[np.complex128]
 IntArray = npt.NDArray[np.int_]
 
 _FIRST_SPLIT = 0.03  # of the loss factor
-_LOAD, _LEAST_LOAD_SD = (
-    1.0,
-    0.05,
-)  # the same of its loads, of the mean load and of the loss factor: none for images
-_PLACE = 0.2  # of the mean load: standard deviation of a doublet's place from its first guess
+# Standard deviations from the first guess: of a load, of the mean load and of the loss factor (an image has no load);
+# of a doublet's place, of the mean load.
+_LOAD, _LEAST_LOAD_SD, _PLACE = 1.0, 0.05, 0.2
 _SMALLEST_LOAD, _LARGEST_LOAD, _LARGEST_SPLIT = 1e-7, 0.2, 0.02
 _LEAST_LOSS = 1e-6
 _TO_ZERO = 0.9  # of the way to no load, at most in one step
@@ -71,7 +69,7 @@ class LoadUnknowns:
         )
 
     def halves(self, load: RovingLoad) -> ComplexArray:
-        """Poles without the sensor: two of a doublet, one of a mode of order 0."""
+        """Poles without the sensor: two of a doublet, one of a mode that has no split."""
         found = [
             pole for m in self.own for pole in (load.halves(m) if load.split[m].any() else load.halves(m)[:1])
         ]
