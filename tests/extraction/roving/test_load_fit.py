@@ -65,6 +65,24 @@ def test_slopes_are_those_of_the_objective(search: ModeSearch) -> None:
     assert normal[0, 1] == normal[0, 7] == normal[6, 7] == 0.0
 
 
+def test_a_doublet_stays_whole_where_a_split_one_explains_no_more(
+    search: ModeSearch, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its loads have standard deviations all the same: slopes over a split need two columns, and were asked of one."""
+    whole = replace(a_load(), split=np.zeros((2, 2)))
+    minimized = load_fit._minimized
+
+    def hopeless(problem: load_fit._Problem, state: load_fit._State) -> tuple[load_fit._State, np.ndarray]:
+        found, normal = minimized(problem, state)
+        return replace(found, objective=np.inf), normal
+
+    monkeypatch.setattr(load_fit, "_minimized", hopeless)
+    found = load_fit._fit_cluster(search, whole, LoadUnknowns((0, 1), whole))
+    np.testing.assert_array_equal(found.split, whole.split)
+    np.testing.assert_array_equal(found.load, whole.load)
+    assert np.all((found.load_sd > 0) & np.isfinite(found.load_sd))
+
+
 def test_no_step_takes_a_plane_s_load_away() -> None:
     load = a_load()
     unknowns = LoadUnknowns((0, 1), load)

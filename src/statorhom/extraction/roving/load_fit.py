@@ -13,7 +13,15 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.extraction.clusters import cluster_lines, clusters, nearest
-from statorhom.extraction.modal_model import Linear, Modes, Window, columns, fitted, projected, solve_linear
+from statorhom.extraction.modal_model import (
+    Linear,
+    Window,
+    columns,
+    fitted,
+    modal_columns,
+    projected,
+    solve_linear,
+)
 from statorhom.extraction.mode_search import ModeSearch
 from statorhom.extraction.roving.load import RovingLoad
 from statorhom.extraction.roving.load_unknowns import LoadUnknowns
@@ -45,14 +53,14 @@ def fitted_load(search: ModeSearch, load: RovingLoad) -> RovingLoad:
 class _Problem:
     """Lines around a cluster and what its fit leaves as it is.
 
-    `others` is the denominator without the cluster's own parts, shape (points, lines); `beside` are the modes that are
-    fitted with it.
+    `others` is the denominator without the cluster's own parts, shape (points, lines); `beside` are the columns of the
+    modes that are fitted with it and of residual terms, shape (columns, bins).
     """
 
     window: Window
     unit: float
     others: ComplexArray
-    beside: Modes
+    beside: ComplexArray
     unknowns: LoadUnknowns
 
     @property
@@ -64,10 +72,9 @@ class _Problem:
         own = np.sum([load.part(m, self.squared) for m in self.unknowns.own], axis=0)
         return self.window.binned(self.others - own)
 
-    def columns(self, load: RovingLoad) -> ComplexArray:
-        """Own resonances, those beside and residual terms, shape (columns, bins)."""
-        freed = single_reference(self.window)
-        return columns(freed, alone(self.unknowns.halves(load) / self.unit), self.beside)[0, :, 0]
+    def resonances(self, load: RovingLoad) -> ComplexArray:
+        """Columns of the cluster's own modes, shape (columns, bins)."""
+        return modal_columns(self.window, alone(self.unknowns.halves(load) / self.unit))[0, :, 0]
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,11 +100,12 @@ class _State:
 
 def _fit_cluster(search: ModeSearch, load: RovingLoad, unknowns: LoadUnknowns) -> RovingLoad:
     problem, own = _problem(search, load, unknowns), list(unknowns.own)
-    first = _state(problem, load)
-    best, normal = _minimized(problem, _state(problem, problem.unknowns.split(load)))
+    first, split = _state(problem, load), unknowns.split(load)
+    # the slopes need both columns of a doublet, and so are always those of split ones
+    best, normal = _minimized(problem, first if split is load else _state(problem, split))
     if not best.objective < first.objective:
-        best, normal = first, _normal(problem, first)[0]
-    sd = problem.unknowns.load_sd(normal) * np.sqrt(max(best.misfit, 1.0) / 2)
+        best = first
+    sd = unknowns.load_sd(normal) * np.sqrt(max(best.misfit, 1.0) / 2)
     found = best.load
     return replace(
         found,
@@ -121,7 +129,8 @@ def _problem(search: ModeSearch, load: RovingLoad, unknowns: LoadUnknowns) -> _P
     near = nearest(load.poles / search.unit, own, lines, search.omega, NEAREST)
     halves = np.unique(np.array([load.halves(m) for m in near], dtype=complex).ravel())
     others = load.denominator(squared) + parts
-    return _Problem(window, search.unit, others, alone(halves / search.unit), unknowns)
+    beside = columns(single_reference(window), alone(halves / search.unit), None)[0, :, 0]
+    return _Problem(window, search.unit, others, beside, unknowns)
 
 
 def _state(problem: _Problem, load: RovingLoad) -> _State:
@@ -129,7 +138,7 @@ def _state(problem: _Problem, load: RovingLoad) -> _State:
     freed = single_reference(
         replace(window, values=window.values * denominator, weights=window.weights / np.abs(denominator) ** 2)
     )
-    flat = problem.columns(load)
+    flat = np.concatenate([problem.resonances(load), problem.beside])
     linear = solve_linear(freed, flat[None, :, None])
     rest = freed.values[:, 0] - fitted(linear.coefficients / linear.norms, flat[None])
     kept = problem.unknowns.kept(load)
@@ -146,10 +155,11 @@ def _slopes(problem: _Problem, state: _State) -> ComplexArray:
     amplitude = state.linear.coefficients / state.linear.norms
     model = amplitude @ state.flat
     references = len(amplitude) // len(problem.window.values)
+    own = len(state.flat) - len(problem.beside)
     slopes = []
     for changed in problem.unknowns.steps(state.load, _STEP):
         moved = np.repeat(problem.denominator(changed), references, axis=0)
-        wave = amplitude @ (problem.columns(changed) - state.flat)
+        wave = amplitude[:, :own] @ (problem.resonances(changed) - state.flat[:own])
         slope = (model * (moved / state.denominator - 1) - wave) / _STEP
         inner = projected(state.flat[None], state.weights * slope) / state.linear.norms
         taken = np.einsum("kab,kb->ka", state.linear.inverse, inner) / state.linear.norms

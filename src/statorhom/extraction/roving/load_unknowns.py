@@ -77,10 +77,12 @@ class LoadUnknowns:
 
     def split(self, load: RovingLoad) -> RovingLoad:
         """With a small split of doublets that have none: two equal poles are one column."""
+        equal = [m for m in self.own if load.orders[m] > 0 and not load.split[m].any()]
+        if not equal:
+            return load
         split = load.split.copy()
-        for m in self.own:
-            if load.orders[m] > 0 and not split[m].any():
-                split[m] = _FIRST_SPLIT * load.poles[m].imag / load.poles[m].real / np.sqrt(2)
+        for m in equal:
+            split[m] = _FIRST_SPLIT * load.poles[m].imag / load.poles[m].real / np.sqrt(2)
         return replace(load, split=split)
 
     def steps(self, load: RovingLoad, size: float) -> Iterator[RovingLoad]:
@@ -159,7 +161,7 @@ class LoadUnknowns:
         return normal, slope
 
     def load_sd(self, normal: FloatArray) -> FloatArray:
-        """Standard deviations of the loads, shape (modes, planes): against each other: with the place all change."""
+        """Standard deviations of the loads against each other, shape (modes, planes): a place changes all alike."""
         places = [number * self._each + self.planes + 1 for number in range(len(self.own))]
         others = np.delete(np.arange(len(normal)), places)
         size = np.sqrt(np.maximum(np.diag(normal)[others], np.finfo(float).tiny))

@@ -18,9 +18,7 @@ IntArray = npt.NDArray[np.int_]
 
 _FAR = 5.0  # half-power bandwidths from which on distance tells nothing more
 _UNLIKE = 5.0  # half-power bandwidths that another order counts as much as
-_LARGEST_MOVE = (
-    2.0  # half-power bandwidths between planes beyond which what passes other modes is not one mode
-)
+_LARGEST_MOVE = 2.0  # half-power bandwidths: what passes other modes by more is not one mode
 
 
 def aligned(found: PlanePoles, rings: Rings) -> PlanePoles:

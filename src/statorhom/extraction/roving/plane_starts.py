@@ -34,8 +34,7 @@ def plane_starts(search: ModeSearch, rings: Rings) -> ComplexArray:
     table = _matched([_stable(search, rows) for rows in members])
     mean = np.nanmean(table, axis=0) if table.size else np.zeros(0, dtype=complex)
     # all planes together show a mode that moves as several: they confirm those that stand alone, and add none
-    whole = _stable(search, np.arange(len(rings.plane)))
-    confirmed = (_near(whole, mean) > 0) & (_near(mean, mean) == 1)
+    confirmed = (_near(search.stable[_is_narrow(search.stable)], mean) > 0) & (_near(mean, mean) == 1)
     kept = np.isfinite(table).sum(axis=0) + confirmed >= _SHOWN * len(members)
     filled: ComplexArray = np.where(np.isfinite(table), table, mean).astype(complex)[:, kept]
     return filled[:, np.argsort(filled.real.mean(axis=0))]
@@ -46,14 +45,16 @@ def _near(poles: ComplexArray, places: ComplexArray) -> IntArray:
     return np.asarray(np.sum(np.abs(poles.real[:, None] - places.real) < _REACH * places.imag, axis=0))
 
 
+def _is_narrow(poles: ComplexArray) -> npt.NDArray[np.bool_]:
+    return (poles.imag > 0) & (poles.imag < BROAD * poles.real)
+
+
 def _stable(search: ModeSearch, rows: IntArray) -> ComplexArray:
+    """Of some points, in ascending frequency."""
     poles, _, diagram = stabilize(search.grid.at(rows.tolist()), search.sd[rows])
-    lasting = [
-        pole
-        for pole in poles.tolist()
-        if 0 < pole.imag < BROAD * pole.real and diagram.share(pole) >= LEAST_SHARE
-    ]
-    return np.asarray(np.array(sorted(lasting, key=lambda pole: pole.real)) / search.unit, dtype=complex)
+    lasting = [diagram.share(pole) >= LEAST_SHARE for pole in poles.tolist()]
+    chosen = poles[_is_narrow(poles) & np.array(lasting, dtype=bool)]
+    return np.asarray(chosen[np.argsort(chosen.real)] / search.unit)
 
 
 def _matched(planes: Sequence[ComplexArray]) -> ComplexArray:
