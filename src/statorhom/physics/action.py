@@ -127,6 +127,7 @@ class Action:
     modulus_at : region → factor of its stiffness at a frequency (Hz).
     attachments, patches : on a coupon.
     stages, tests : where it is present; None: everywhere.
+    label : of the candidate whose action it is (`Candidate.label`).
     """
 
     masses: Mapping[str, float] = field(default_factory=dict)
@@ -148,6 +149,7 @@ class Action:
     patches: tuple[Patch, ...] = ()
     stages: frozenset[str] | None = None
     tests: frozenset[str] | None = None
+    label: str | None = None
 
     def touches(self, stage: str, test: str | None = None) -> bool:
         """Whether it is present in a stage, and in a test of it."""

@@ -34,6 +34,7 @@ def stand(
     class Blank:
         study: Any
         held: Any = "pairs"
+        shared: tuple[object, ...] = ()
 
     best = SimpleNamespace(objective=before, z=np.zeros(3), hypothesis=Blank(study), name="before")
     monkeypatch.setattr(new_step, "_is_convincing", lambda _: convincing)

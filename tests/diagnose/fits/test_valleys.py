@@ -56,7 +56,9 @@ def test_a_deeper_valley_on_another_side_of_a_vague_constant_is_found(
     items = [
         SimpleNamespace(log=log, sd=sd) for log, sd in ((True, 1.2), (True, 1.5), (False, 2.0), (True, 0.3))
     ]
-    blank: Any = Hypothesis(SimpleNamespace(constants=SimpleNamespace(items=items)))  # type: ignore[arg-type]
+    blank: Any = Hypothesis(
+        SimpleNamespace(constants=SimpleNamespace(items=items), files=None, stages=(), effects=())
+    )  # type: ignore[arg-type]
     found: Any = [SimpleNamespace(z=np.zeros(3), objective=41.0)]
     assert [r.objective for r in with_other_sides(blank, found, [0, 1, 2, 3])] == [29.0, 41.0]
     # a ratio and what is known are left where they are

@@ -45,7 +45,8 @@ class Core:
     @property
     def study(self) -> Any:
         constants = SimpleNamespace(items=(SimpleNamespace(log=True, sd=2.0),))
-        stage = SimpleNamespace(tests=(SimpleNamespace(recorded=self.recorded),))
+        tests = (SimpleNamespace(recorded=self.recorded),)
+        stage = SimpleNamespace(tests=tests, refinement=None)
         return SimpleNamespace(stages=(stage,), constants=constants)
 
     @property

@@ -48,8 +48,8 @@ def test_a_valley_on_the_other_side_is_taken_where_it_is_deeper(
     monkeypatch.setattr(sharper, "refitted", refitted)
     best = sharper._on_other_sides(found_at(np.array([0.2, -0.7, 0.1]), 100.0))
     assert best.objective == objective
-    # the one that is vague, both sides, and nothing else moved
-    assert [s[1] for s in starts] == [-ASIDE, ASIDE]
+    # the one that is vague, both sides, and nothing else moved; and where that led to, with its models
+    assert [s[1] for s in starts] == [-ASIDE, ASIDE, *([ASIDE] if there < 98.0 else [])]
     assert all(s[0] == 0.2 and s[2] == 0.1 for s in starts)
 
 
@@ -68,12 +68,12 @@ def test_what_breaks_the_symmetry_is_solved_on_the_other_side(monkeypatch: pytes
         references.append(z[1])
         return hypothesis
 
-    def refit(_hypothesis: Any, z: np.ndarray, rounds: int) -> Any:
-        # without an objective for which it is given up: the first steps from so far promise too little
-        assert rounds == 1
+    def refit(_hypothesis: Any, z: np.ndarray, rounds: int, worth: float) -> Any:
+        # the first steps from so far promise too little
+        assert (rounds, worth) == (1, 100.0 + sharper.HOPELESS)
         return broken(z, 20.0 if z[1] > 0 else 190.0)
 
     monkeypatch.setattr(sharper, "in_its_own_model", own_model)
     monkeypatch.setattr(sharper, "refit", refit)
     assert sharper._on_other_sides(broken(np.array([0.2, -0.7, 0.1]), 100.0)).objective == 20.0
-    assert references == [-ASIDE, ASIDE]
+    assert references == [-ASIDE, ASIDE, ASIDE]

@@ -63,9 +63,30 @@ def test_what_is_reported_is_solved_at_its_own_materials(
     monkeypatch.setattr(module, "is_a_field", lambda *_: everywhere)
     monkeypatch.setattr(module, "_has_moved", lambda _: moved)
     monkeypatch.setattr(module, "keeps_symmetry", lambda _: symmetric)
+    monkeypatch.setattr(module, "refines", lambda *_: False)
     monkeypatch.setattr(module, "_sharpened", lambda one: steps[steps.index(one) + 1])
     begin: Any = steps[0]
     assert at_its_own_materials(begin).refit.objective == reported
+
+
+@pytest.mark.parametrize(
+    ("now", "before", "cost", "taken"),
+    [
+        (True, False, 25.0, True),  # a coarse mesh may leave less for what it gets wrong
+        (True, False, 31.0, False),  # but not that much
+        (True, True, 25.0, False),
+        (False, True, 15.0, False),
+    ],
+)
+def test_what_a_finer_mesh_has_told_is_taken_though_it_leaves_more(
+    now: bool, before: bool, cost: float, taken: bool
+) -> None:
+    def optimum(refined: bool, cost: float) -> Any:
+        stages = (SimpleNamespace(refinement=None), SimpleNamespace(refinement="it" if refined else None))
+        hypothesis = SimpleNamespace(study=SimpleNamespace(stages=stages))
+        return SimpleNamespace(hypothesis=hypothesis, cost=cost)
+
+    assert module.refines(optimum(now, cost), optimum(before, 20.0)) is taken
 
 
 def test_an_arc_can_be_solved_as_it_is_alone() -> None:

@@ -149,7 +149,7 @@ class AnyHypothesis(ABC):
         """What the effects do, and after them those that the study declares."""
         values = self.effect_values(z)
         own = (
-            library()[c.effect].action(c, v, self.study.files)
+            replace(library()[c.effect].action(c, v, self.study.files), label=c.label)
             for c, v in zip(self.candidates, values, strict=True)
         )
         if not self.trained:

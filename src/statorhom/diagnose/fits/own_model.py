@@ -14,6 +14,7 @@ from statorhom.diagnose.fits.new_step import SNAPSHOTS
 from statorhom.diagnose.fits.valleys import trials_around
 from statorhom.diagnose.stages.constants import new_constants
 from statorhom.diagnose.stages.dimension_response import scaled, typed
+from statorhom.diagnose.stages.finer_twin import refinement
 from statorhom.diagnose.stages.redrawn_study import redrawn
 from statorhom.diagnose.stages.stage_model import StageModel, mesh_error, with_reference
 from statorhom.diagnose.stages.study_model import StudyModel
@@ -38,6 +39,8 @@ def in_its_own_model(
 ) -> Hypothesis:
     """With basis and mesh factors of its own materials, and the local fields of its effects; to be paired anew.
 
+    What strong effects do is solved on a finer mesh as well, and what that adds is added from there on.
+
     Parameters
     ----------
     hypothesis, z : what, and where.
@@ -58,6 +61,8 @@ def in_its_own_model(
         near = with_reference(stage, materials, arcs, {} if quick else _examples(stage, materials, actions))
         if not quick and drawn is hypothesis:
             near = near.with_error(mesh_error(near, materials))
+            told = refinement(near, materials, actions, _sizes(hypothesis, z), stage.refinement)
+            near = replace(near, refinement=told)
         stages.append(near)
     return drawn.with_stages(tuple(stages))
 
@@ -104,6 +109,12 @@ def is_far(hypothesis: Hypothesis, z: np.ndarray) -> bool:
 def _dimensions(hypothesis: Hypothesis, z: np.ndarray) -> dict[str, float]:
     """What effects correct, "section.key" → value."""
     return {name: value for action in hypothesis.actions(z) for name, value in action.dimensions.items()}
+
+
+def _sizes(hypothesis: Hypothesis, z: np.ndarray) -> list[float]:
+    """Of the effects: coordinates that tell no place."""
+    own = zip(hypothesis.parameters, z[hypothesis.constants :].tolist(), strict=True)
+    return [u for (i, j), u in own if not hypothesis.candidates[i].parameters[j].located]
 
 
 def _examples(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import product
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from scipy.stats import norm, qmc
@@ -128,30 +128,51 @@ def on_its_best_side(best: Refit[_H], blank: _H, places: Iterable[int]) -> Refit
     places : of the constants that are tried, where little is known of them.
     """
     constants = [(place, blank.study.constants.items[place]) for place in places]
-    return best_of_sides(best, constants, lambda r, start: refitted(blank, start, r.objective))
+    shared = [blank, *blank.shared]
+    return best_of_sides(best, constants, lambda r, start: refitted(blank, start, r.objective), shared)
+
+
+class Reached(NamedTuple):
+    """Where a refit ended, without its models."""
+
+    z: np.ndarray
+    objective: float
+
+
+class _Optimum(Protocol):
+    @property
+    def z(self) -> np.ndarray: ...
+    @property
+    def objective(self) -> float: ...
+
+
+_Found = TypeVar("_Found", bound=_Optimum)
 
 
 def best_of_sides(
-    best: Refit[_H],
+    best: _Found,
     constants: Iterable[tuple[int, Constant]],
-    follow: Callable[[Refit[_H], np.ndarray], Refit[_H] | None],
-) -> Refit[_H]:
+    follow: Callable[[_Found, np.ndarray], _Found | None],
+    shared: Sequence[object] = (),
+) -> _Found:
     """The best of an optimum and what is found where a constant of which little is known starts far to either side.
 
     Parameters
     ----------
     best : the optimum.
-    constants : their places and themselves, which are tried one after the other.
+    constants : their places and themselves, which are tried one after the other, both sides at once.
     follow : the best optimum so far and a start → the optimum from there.
+    shared : what the optima may refer to (`statorhom.diagnose.processes.side_by_side`).
     """
-    for (place, constant), side in product(constants, (-ASIDE, ASIDE)):
+    for place, constant in constants:
         if not constant.log or constant.sd < VAGUE:
             continue
-        start = best.z.copy()
-        start[place] = side
-        again = follow(best, start)
-        if again is not None and again.objective < best.objective - SETTLED:
-            best = again
+        starts = [best.z.copy() for _ in range(2)]
+        for start, side in zip(starts, (-ASIDE, ASIDE), strict=True):
+            start[place] = side
+        for again in side_by_side(partial(follow, best), starts, shared):
+            if again is not None and again.objective < best.objective - SETTLED:
+                best = again
     return best
 
 

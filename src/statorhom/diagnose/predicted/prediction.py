@@ -217,7 +217,11 @@ def _broken_responses(
         for c in a.changes(mesh, materials if a.follows_materials else stage.reference)
     ]
     trainings = [a.training for a in actions if a.training is not None]
-    return responses(stage, changes, trainings) if changes else {}
+    found = responses(stage, changes, trainings) if changes else {}
+    refined = stage.refinement
+    # without one of the effects that it is of, a solution is another one
+    there_are = refined is not None and refined.labels <= {a.label for a in actions if a.changes}
+    return refined.to(found) if refined is not None and there_are else found
 
 
 @dataclass(frozen=True, eq=False)

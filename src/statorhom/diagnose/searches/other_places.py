@@ -22,7 +22,7 @@ from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.fits.valleys import on_its_best_side
 from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.diagnose.searches.deeper import DEEPER, is_sought
-from statorhom.diagnose.searches.sharper import in_its_own_models
+from statorhom.diagnose.searches.sharper import in_its_own_models, refines
 from statorhom.physics.parameter import EffectParameter
 
 MOST = 4  # explanations that are followed
@@ -85,6 +85,8 @@ def _blank(explanation: Explanation) -> Hypothesis:
 def _better(before: Explanation, other: Refit) -> Explanation:
     """What an optimum leads to in its own models, where that leaves less and is not too narrow to speak for it."""
     now = before.at(in_its_own_models(replace(before, refit=other)).refit)
+    if refines(now.refit, before.refit):
+        return now
     deeper = now.refit.objective < before.refit.objective - DEEPER
     return now if deeper and now.log_evidence > before.log_evidence else before
 

@@ -24,7 +24,7 @@ from statorhom.diagnose.fits.explanations import (
 )
 from statorhom.diagnose.fits.own_model import AROUND, ITSELF, in_its_own_model
 from statorhom.diagnose.fits.refit import Refit, refit, refit_objective
-from statorhom.diagnose.fits.valleys import APART, FAR_BEHIND, SETTLED, best_of_sides, is_apart
+from statorhom.diagnose.fits.valleys import APART, FAR_BEHIND, SETTLED, Reached, best_of_sides, is_apart
 from statorhom.diagnose.located.mirrored import at_fitting_height
 from statorhom.diagnose.searches.single_effects import is_a_field
 from statorhom.errors import StatorhomError
@@ -37,6 +37,7 @@ MOVED = (
 )
 WORSE = 10.0  # of the cost, by which a model of its own is worse than the common one
 AWAY = 2.0  # of the objective, by which an optimum is none in its own model
+HOPELESS = 50.0  # of the objective: what promises no better from other constants does not get there
 BEHIND = 150.0  # log evidence by which others are too far behind for that
 
 
@@ -93,11 +94,24 @@ def _anew(explanation: Explanation, is_worth_it: Callable[[Refit], bool]) -> Exp
             break
         again = _sharpened(explanation)
         gained = explanation.refit.objective - again.refit.objective
-        if gained > 0:
+        if gained > 0 or refines(again.refit, explanation.refit):
             explanation = again
         if gained < SETTLED:
             break
     return explanation
+
+
+def refines(now: Refit, before: Refit) -> bool:
+    """Whether a finer mesh has told the one optimum and not the other, and leaves hardly more.
+
+    What a coarse mesh has too little room for, constants and sizes may make up for: that it leaves less is no merit.
+    """
+    of_now, of_before = (_is_refined(r) for r in (now, before))
+    return of_now and not of_before and now.cost < before.cost + WORSE
+
+
+def _is_refined(r: Refit) -> bool:
+    return any(stage.refinement is not None for stage in r.hypothesis.study.stages)
 
 
 def _mixes(r: Refit) -> bool:
@@ -213,8 +227,18 @@ def _on_other_sides(optimum: Refit) -> Refit:
     """
     without = _from_there(optimum, optimum.z) if _has_own_fields(optimum) else None
     begun = without or optimum
-    best = best_of_sides(begun, enumerate(begun.hypothesis.study.constants.items), _from_there)
-    return optimum if best is begun else best
+    constants = enumerate(begun.hypothesis.study.constants.items)
+    best = best_of_sides(
+        Reached(begun.z, begun.objective), constants, lambda _, start: _reached(begun, start)
+    )
+    there = None if best.z is begun.z else _from_there(begun, best.z)
+    return optimum if there is None else there
+
+
+def _reached(begun: Refit, start: np.ndarray) -> Reached | None:
+    """Where the refit from other constants ends: a model of its own comes from no other process."""
+    found = _from_there(begun, start)
+    return None if found is None else Reached(found.z, found.objective)
 
 
 def _has_own_fields(found: Refit) -> bool:
@@ -229,8 +253,9 @@ def _from_there(best: Refit, start: np.ndarray) -> Refit | None:
         return refitted(blank, start, worth=best.objective)
     try:
         # Modes are not paired anew: what leads further is followed once more. The first steps from so far promise too
-        # little, and cost less than the model.
-        return refit(in_its_own_model(blank, start, quick=True), start, rounds=1)
+        # little, but not that little.
+        worth = best.objective + HOPELESS
+        return refit(in_its_own_model(blank, start, quick=True), start, rounds=1, worth=worth)
     except (StatorhomError, KeyError):
         return None
 

@@ -17,6 +17,7 @@ from statorhom.diagnose.contacts.joint_training import KnownArc
 from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.diagnose.processes.memory import Memory
 from statorhom.diagnose.processes.side_by_side import workers
+from statorhom.diagnose.stages.refinement import Refinement
 from statorhom.diagnose.stages.supported_slopes import HeldShapes
 from statorhom.geometry.stator import StepGeometry
 from statorhom.identify.residuals.model_error import ModelError
@@ -42,6 +43,8 @@ MOST = 6  # modes of a harmonic problem on it
 OF_REFERENCE = ("broken", "mirrors", "reference_keys", "scattered")
 RESPONSES = 256  # to what breaks the symmetry, that are kept
 FINER = 1.5  # second mesh of the extrapolation
+# times as many cells through the back of the core: what is soft in a part of its depth bends it where two cannot follow
+YOKE = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +61,8 @@ class StageModel:
     density : of the mesh.
     arcs : at which a contact that is weaker over one is predicted as the mesh has it.
     examples : key of a training → further examples of its changes, which the basis holds well.
+    exact : whether it holds all that they ask for, which makes solutions dear.
+    refinement : what a finer mesh adds to what breaks the symmetry at the reference.
     """
 
     setup: StageSetup
@@ -71,6 +76,8 @@ class StageModel:
     _slopes: dict[bytes, dict[tuple[int, int], np.ndarray]] = field(default_factory=dict, repr=False)
     arcs: tuple[KnownArc, ...] = ()
     examples: Mapping[str, Examples] = field(default_factory=dict)
+    exact: bool = False
+    refinement: Refinement | None = None
     # what belongs to the reference and takes seconds
     memory: Memory = field(default_factory=Memory, repr=False)
     _trained: dict[tuple[str, ...], TrainedBasis] = field(default_factory=dict, repr=False)
@@ -95,6 +102,11 @@ class StageModel:
     def finer(self) -> AffineModel:
         """The matrices of a finer mesh."""
         return self._meshes.once(FINER, lambda: _assembled(self.setup, self.density.refined(FINER)))
+
+    @property
+    def finely_layered(self) -> AffineModel:
+        """The matrices of a mesh with more cells through the back of the core."""
+        return self._meshes.once("layers", lambda: _assembled(self.setup, finely_layered(self.density)))
 
     @cached_property
     def heights_m(self) -> tuple[float, ...]:
@@ -217,7 +229,8 @@ class StageModel:
             found = trained_basis(self.broken, named)
             for one in sorted(trainings, key=lambda t: t.key):
                 found = found.trained(one.examples(self.model.mesh, self.reference), named)
-                found = found.with_own(self.examples.get(one.key, ()), named)
+                own = self.examples.get(one.key, ())
+                found = found.with_all(own, named) if self.exact else found.with_own(own, named)
             self._trained[mark] = found
         return self._trained[mark]
 
@@ -267,12 +280,27 @@ def stage_model(
     setup: StageSetup, tests: Sequence[MeasuredTest], snapshots: Sequence[Materials], density: MeshDensity
 ) -> StageModel:
     """A stage at the first of some materials, good near all of them; no mesh factors yet."""
-    model = _assembled(setup, density)
+    return on_mesh(_assembled(setup, density), setup, tests, snapshots, density)
+
+
+def on_mesh(
+    model: AffineModel,
+    setup: StageSetup,
+    tests: Sequence[MeasuredTest],
+    snapshots: Sequence[Materials],
+    density: MeshDensity,
+) -> StageModel:
+    """The same on a mesh that is there."""
     top = BAND * max(mode.frequency_hz for test in tests for mode in test.modes)
     named = [m.order for test in tests for m in test.modes if m.order is not None]
     highest = min(max([*named, 3]) + 1, model.mesh.slots // 2)
     ring = ring_basis(model, snapshots, top, range(highest + 1))
     return StageModel(setup, tuple(tests), ring, snapshots[0], ModelError(), density)
+
+
+def finely_layered(density: MeshDensity) -> MeshDensity:
+    """With more cells through the back of the core."""
+    return replace(density, cells={**density.cells, "yoke": YOKE * density.cells["yoke"]})
 
 
 def _assembled(setup: StageSetup, density: MeshDensity) -> AffineModel:
@@ -307,6 +335,7 @@ def with_reference(
         stage,
         arcs=arcs,
         examples=examples or {},
+        refinement=None,
         ring=stage.ring.extended([materials]),
         reference=materials,
         _last={},
