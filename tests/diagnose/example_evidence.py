@@ -15,6 +15,7 @@ GOOD = Evidence(
     over_discrepancy=30.0,
     held_out=FALLS,
     adequacy=0.4,
+    chance_of_rows=0.9,
     nothing_adequacy=1e-9,
     nothing_but_one=1e-9,
     within=True,

@@ -225,8 +225,7 @@ def _evidence(
     over: float,
     seed: int,
 ) -> Evidence:
-    rest = others(best, found)
-    totals = effect_evidence(found)
+    rest, totals = others(best, found), effect_evidence(found)
     own = over + none.log_evidence
     next_best = max((totals[e.effects] for e in rest), default=-np.inf)
     unseen: HeldOut | None = None
@@ -242,6 +241,7 @@ def _evidence(
         over_discrepancy=own - discrepancy_evidence(leading.base.refit),
         held_out=unseen,
         adequacy=best.adequacy_but_one,
+        chance_of_rows=best.chance_of_rows,
         nothing_adequacy=none.adequacy,
         nothing_but_one=none.adequacy_but_one,
         within=within_bounds(best) and differs_from_absence(best),

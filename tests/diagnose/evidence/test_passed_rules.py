@@ -33,6 +33,7 @@ EVIDENCE = st.builds(
         st.booleans(),
     ),
     adequacy=CHANCES,
+    chance_of_rows=CHANCES,
     nothing_adequacy=CHANCES,
     nothing_but_one=CHANCES,
     within=st.booleans(),
@@ -46,7 +47,7 @@ def row(evidence: Evidence, rule: str) -> RuleRow:
 
 
 UNSEEN = HeldOut(GROUPS[:1], (0.02,), (0.02,), (0.02,))  # by which nothing is predicted better or worse
-BEYOND_DOUBT = Evidence(1e-12, False, 21.0, 6.0, 21.0, UNSEEN, 0.011, 1e-12, 1e-12, True, 0.8)
+BEYOND_DOUBT = Evidence(1e-12, False, 21.0, 6.0, 21.0, UNSEEN, 0.011, 0.0, 1e-12, 1e-12, True, 0.8)
 
 
 @example(BEYOND_DOUBT)
@@ -90,12 +91,12 @@ def test_more_is_asked_where_the_declared_model_is_adequate_or_few_modes_show_it
     assert few.improves
     assert not few.falls
     assert row(replace(GOOD, held_out=few), "nothing").needed == 8.0
-    assert row(replace(GOOD, held_out=few, adequacy=0.8), "discrepancy").needed == 5.0
+    assert row(replace(GOOD, held_out=few, chance_of_rows=0.9), "discrepancy").needed == 5.0
     assert row(replace(GOOD, held_out=few), "others").needed == 5.0
     assert row(replace(GOOD, held_out=few, over_others=float("inf")), "nothing").needed == 8.0
     # more is left than right explanations leave
-    assert row(replace(GOOD, adequacy=0.15), "discrepancy").needed == pytest.approx(17.9, abs=0.1)
-    assert row(replace(GOOD, held_out=few, adequacy=0.15), "discrepancy").needed == FAR_OVER_NOTHING
+    assert row(replace(GOOD, chance_of_rows=0.6), "discrepancy").needed == pytest.approx(8.4, abs=0.1)
+    assert row(replace(GOOD, held_out=few, chance_of_rows=0.15), "discrepancy").needed == FAR_OVER_NOTHING
 
 
 def test_modes_that_show_nothing_neither_pass_nor_fail() -> None:

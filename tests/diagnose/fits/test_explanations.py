@@ -88,3 +88,41 @@ def test_two_on_both_sides_have_to_gain_what_a_second_effect_has_to() -> None:
     one, two = (evidence(Candidate("lump", "wing", (), both_sides=b)) for b in (False, True))
     assert one == pytest.approx(-3.0 - np.log(2.0))
     assert one - two == pytest.approx(PAIR_GAIN)
+
+
+def linear(rng: np.random.Generator, constants: int, rows: int = 12) -> Explanation:
+    """A right explanation at its optimum: rows are linear in constants, which are as their priors say."""
+    J = np.random.default_rng(3).normal(size=(rows, constants)) * 5.0
+    z = rng.standard_normal(constants)
+    measured = J @ z + rng.standard_normal(rows)
+    best = np.linalg.solve(J.T @ J + np.eye(constants), J.T @ measured)
+    residuals = J @ best - measured
+    hypothesis = SimpleNamespace(
+        constants=constants,
+        prior_weights=np.ones(constants),
+        charge=lambda _: 0.0,
+        features=lambda _: features(residuals.tolist()),
+    )
+    misfit = float(residuals @ residuals)
+    return Explanation((), Refit(hypothesis, best, J, misfit, misfit + float(best @ best)), 0.0)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("constants", [1, 6])
+def test_of_right_explanations_rows_are_left_by_chance(constants: int) -> None:
+    """As the share of the rows that constants take up grows, less is left, and the chance stays what it is."""
+    rng = np.random.default_rng(5)
+    found = np.array([linear(rng, constants).chance_of_rows for _ in range(400)])
+    assert np.mean(found) == pytest.approx(0.5, abs=0.05)
+    assert np.mean(found < 0.1) == pytest.approx(0.1, abs=0.04)
+
+
+def test_what_is_unusual_of_a_constant_says_nothing_of_the_rows() -> None:
+    usual, unusual = explanation(0.0, 0.0), explanation(6.0, 0.0)
+    assert unusual.adequacy < 1e-3 < usual.adequacy
+    assert unusual.chance_of_rows == usual.chance_of_rows == pytest.approx(float(chi2.sf(8.0, 10)))
+
+
+def test_loss_factors_are_no_rows_that_count() -> None:
+    plain, lossy = with_residuals([1.5] * 6), with_residuals([1.5] * 6, losses=[4.0] * 8)
+    assert lossy.chance_of_rows == pytest.approx(plain.chance_of_rows)
+    assert with_residuals([], losses=[4.0] * 3).chance_of_rows == 1.0

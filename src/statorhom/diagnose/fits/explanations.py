@@ -102,6 +102,21 @@ class Explanation(Generic[H]):
         return float(chi2.sf(self.refit.objective, max(len(self.refit.jacobian), 1)))
 
     @property
+    def chance_of_rows(self) -> float:
+        """Chance that a right explanation leaves as much of the rows, however unusual its constants are.
+
+        If data and constants are what they are said to be, a refit leaves normal deviates of the rows, of covariance
+        I - J (JᵀJ + W)⁻¹ Jᵀ, W the prior's precision. Their sum of squares is about a multiple of χ² (Satterthwaite
+        (1946), Biometrics Bulletin 2, 110). What is unusual of constants is so beside every explanation.
+        """
+        certain = np.array([f.kind not in UNCERTAIN for f in self._features], dtype=bool)
+        if not certain.any():
+            return 1.0
+        left = self.refit.left_of_noise[np.ix_(certain, certain)]
+        mean, square = float(np.trace(left)), float(np.sum(left**2))
+        return float(chi2.sf(np.sum(self._residuals[0] ** 2) * mean / square, mean**2 / square))
+
+    @property
     def _misfit(self) -> float:
         r = self.refit
         effect = slice(r.hypothesis.constants, None)

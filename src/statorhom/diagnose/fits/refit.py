@@ -58,6 +58,12 @@ class Refit(Generic[H]):
         return covariance_of(self.jacobian, self.hypothesis.prior_weights)
 
     @property
+    def left_of_noise(self) -> FloatArray:
+        """(n, n) covariance of the residuals at the optimum, to first order."""
+        J = self.jacobian
+        return np.asarray(np.eye(len(J)) - J @ self.covariance @ J.T)
+
+    @property
     def cost(self) -> float:
         """The objective and twice the doubt: what tells optima of different models apart."""
         return self.objective + 2.0 * self.doubt
