@@ -12,6 +12,9 @@ from statorhom.diagnose.fits.explanations import PAIR_GAIN, Explanation, explain
 from statorhom.diagnose.fits.refit import Refit
 from statorhom.physics.candidate import Candidate
 
+TABLES = SimpleNamespace(stages=())
+RECORDED = SimpleNamespace(stages=(SimpleNamespace(tests=(SimpleNamespace(recorded=True),)),))
+
 
 def features(residuals: list[float]) -> list[SimpleNamespace]:
     return [SimpleNamespace(kind="frequency", residual=r) for r in residuals]
@@ -21,7 +24,7 @@ def explanation(constant: float, magnitude: float) -> Explanation:
     """Ten features that are met to 8 units of squared residual; a constant and an effect's magnitude."""
     rows = features([np.sqrt(0.8)] * 10)
     hypothesis = SimpleNamespace(
-        constants=1, prior_weights=np.ones(2), charge=lambda _: 3.0, features=lambda _: rows
+        study=TABLES, constants=1, prior_weights=np.ones(2), charge=lambda _: 3.0, features=lambda _: rows
     )
     objective = 8.0 + 3.0 + constant**2 + magnitude**2
     refit = Refit(hypothesis, np.array([constant, magnitude]), np.zeros((10, 2)), 8.0, objective)  # type: ignore[arg-type]
@@ -54,7 +57,7 @@ def with_residuals(residuals: list[float], losses: list[float] | None = None) ->
     r = np.array([*residuals, *(f.residual for f in lossy)])
     rows = features(residuals) + lossy
     hypothesis = SimpleNamespace(
-        constants=0, prior_weights=np.zeros(0), charge=lambda _: 0.0, features=lambda _: rows
+        study=TABLES, constants=0, prior_weights=np.zeros(0), charge=lambda _: 0.0, features=lambda _: rows
     )
     misfit = float(r @ r)
     refit = Refit(hypothesis, np.zeros(0), np.zeros((len(r), 0)), misfit, misfit)  # type: ignore[arg-type]
@@ -98,6 +101,7 @@ def linear(rng: np.random.Generator, constants: int, rows: int = 12) -> Explanat
     best = np.linalg.solve(J.T @ J + np.eye(constants), J.T @ measured)
     residuals = J @ best - measured
     hypothesis = SimpleNamespace(
+        study=TABLES,
         constants=constants,
         prior_weights=np.ones(constants),
         charge=lambda _: 0.0,
@@ -126,3 +130,11 @@ def test_loss_factors_are_no_rows_that_count() -> None:
     plain, lossy = with_residuals([1.5] * 6), with_residuals([1.5] * 6, losses=[4.0] * 8)
     assert lossy.chance_of_rows == pytest.approx(plain.chance_of_rows)
     assert with_residuals([], losses=[4.0] * 3).chance_of_rows == 1.0
+
+
+def test_by_recordings_what_is_adequate_is_enough() -> None:
+    table = linear(np.random.default_rng(0), 11)
+    recorded = linear(np.random.default_rng(0), 11)
+    recorded.refit.hypothesis.study = RECORDED  # type: ignore[misc]
+    assert recorded.chance_of_rows == max(table.chance_of_rows, recorded.adequacy_but_one)
+    assert recorded.adequacy_but_one > table.chance_of_rows

@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from statorhom.diagnose.evidence.decision import NEAR_RIVAL
-from statorhom.diagnose.fits.explanations import UNUSUAL, Explanation, refitted
+from statorhom.diagnose.fits.explanations import UNUSUAL, Explanation, refitted, was_recorded
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.profile import Profile
 from statorhom.diagnose.fits.refit import Refit
@@ -38,7 +38,7 @@ def at_their_best_places(found: Sequence[Explanation], seed: int) -> list[Explan
     found : the best first.
     seed : of the points that are drawn.
     """
-    if not found or _was_recorded(found[0].refit):
+    if not found or was_recorded(found[0].refit):
         return list(found)
     least = found[0].log_evidence - NEAR_RIVAL
     near = [e for e in found[:MOST] if e.log_evidence > least and is_sought(e)]
@@ -49,11 +49,6 @@ def at_their_best_places(found: Sequence[Explanation], seed: int) -> list[Explan
     )
     better = dict(zip(map(id, near), followed, strict=True))
     return sorted((better.get(id(e), e) for e in found), key=lambda e: -e.log_evidence)
-
-
-def _was_recorded(r: Refit) -> bool:
-    """Whether any test was recorded: then angles and leans are told."""
-    return any(test.recorded for stage in r.hypothesis.study.stages for test in stage.tests)
 
 
 def _at_its_best_place(explanation: Explanation, seed: int | None) -> Explanation:
