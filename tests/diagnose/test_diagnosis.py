@@ -39,7 +39,7 @@ def in_models_of_their_own(monkeypatch: pytest.MonkeyPatch, over: float, adequac
         "all_candidates": lambda _: [],
         "leading_effects": lambda *_: leading,
         "nothing": lambda _: SimpleNamespace(log_evidence=-100.0, adequacy=adequacy),
-        "_evidence": lambda *_: diagnosis.Evidence(*[0.0] * 5, None, *[0.0] * 3, True, 1.0),
+        "_evidence": lambda *_: diagnosis.Evidence(*[0.0] * 5, None, *[0.0] * 4, True, 1.0),
         "decide": lambda _: "none",
     }.items():
         monkeypatch.setattr(diagnosis, name, value)
