@@ -26,6 +26,7 @@ from statorhom.diagnose.searches.sharper import in_its_own_models, refines
 from statorhom.physics.parameter import EffectParameter
 
 MOST = 4  # explanations that are followed
+MORE = 0.3  # right explanations leave as much of the rows with a chance that is larger by about this
 DRAWN = 30  # starts of what leaves too much
 HEIGHTS = 0.2, 0.5  # of the core's height: what lies above its middle mirrors what lies below
 
@@ -62,7 +63,7 @@ def _at_its_best_place(explanation: Explanation, seed: int | None) -> Explanatio
         explanation = _better(explanation, aside)
     best, blank = explanation.refit, _blank(explanation)
     starts = list(_other_places(best))
-    if seed is not None and explanation.adequacy_but_one <= UNUSUAL:
+    if seed is not None and min(explanation.adequacy_but_one, explanation.chance_of_rows - MORE) <= UNUSUAL:
         starts += _drawn(best, seed)
     followed = side_by_side(lambda z: refitted(blank, z, best.objective), starts, [blank, *blank.shared])
     there = [r for r in followed if r is not None]
