@@ -12,6 +12,7 @@ from statorhom.diagnose.contacts.joint_training import KnownArc
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.new_step import SNAPSHOTS
 from statorhom.diagnose.fits.valleys import trials_around
+from statorhom.diagnose.stages.broken_response import own_examples
 from statorhom.diagnose.stages.constants import new_constants
 from statorhom.diagnose.stages.dimension_response import scaled, typed
 from statorhom.diagnose.stages.finer_twin import refinement
@@ -20,7 +21,6 @@ from statorhom.diagnose.stages.stage_model import StageModel, mesh_error, with_r
 from statorhom.diagnose.stages.study_model import StudyModel
 from statorhom.errors import GeometryError, StatorhomError
 from statorhom.model.affine import Materials
-from statorhom.model.broken.change import Change
 from statorhom.physics.action import Action
 
 AROUND = 1 / 1.1, 1.1  # times its own arc, at which a contact that is lost over one is solved
@@ -58,7 +58,9 @@ def in_its_own_model(
     for stage in drawn.study.stages:
         materials = drawn.materials(stage, z)
         arcs = (*_arcs(actions, around), *_arcs_elsewhere(drawn, stage, elsewhere))
-        near = with_reference(stage, materials, arcs, {} if quick else _examples(stage, materials, actions))
+        near = with_reference(
+            stage, materials, arcs, {} if quick else own_examples(stage, materials, actions)
+        )
         if not quick and drawn is hypothesis:
             near = near.with_error(mesh_error(near, materials))
             told = refinement(near, materials, actions, _sizes(hypothesis, z), stage.refinement)
@@ -115,17 +117,6 @@ def _sizes(hypothesis: Hypothesis, z: np.ndarray) -> list[float]:
     """Of the effects: coordinates that tell no place."""
     own = zip(hypothesis.parameters, z[hypothesis.constants :].tolist(), strict=True)
     return [u for (i, j), u in own if not hypothesis.candidates[i].parameters[j].located]
-
-
-def _examples(
-    stage: StageModel, materials: Materials, actions: Sequence[Action]
-) -> dict[str, tuple[tuple[Change, ...]]]:
-    """What effects change in a stage, by the key of their training: a strong one's local fields are its own."""
-    return {
-        a.training.key: (a.changes(stage.model.mesh, materials),)
-        for a in actions
-        if a.training and a.changes and a.touches(stage.name)
-    }
 
 
 def _arcs(actions: Sequence[Action], around: Sequence[float]) -> tuple[KnownArc, ...]:

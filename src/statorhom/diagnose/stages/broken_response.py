@@ -8,13 +8,14 @@ from dataclasses import replace
 from statorhom.diagnose.bases.shown_nodes import shown_nodes
 from statorhom.diagnose.stages.order_profiles import broken_profile, radial_motion
 from statorhom.diagnose.stages.stage_model import StageModel
+from statorhom.model.affine import Materials
 from statorhom.model.broken.change import Change
 from statorhom.model.broken.named_response import Response, nearest_pair, response_of, seen_shares
 from statorhom.model.broken.solve import solve_broken
 from statorhom.model.convergence import ModeKey
-from statorhom.physics.action import Training
+from statorhom.physics.action import Action, Training
 
-__all__ = ["Response", "responses"]
+__all__ = ["Response", "changes_of", "own_examples", "responses"]
 
 
 def responses(
@@ -39,3 +40,19 @@ def responses(
             response = response_of(modes, place, pair, shares[key])
             found[key] = replace(response, other_axial=shown.get(key), profile=profile)
     return found
+
+
+def changes_of(stage: StageModel, materials: Materials, actions: Sequence[Action]) -> list[Change]:
+    """All that actions change, on a stage's mesh."""
+    return [c for a in actions if a.changes for c in a.changes(stage.model.mesh, materials)]
+
+
+def own_examples(
+    stage: StageModel, materials: Materials, actions: Sequence[Action]
+) -> dict[str, tuple[tuple[Change, ...]]]:
+    """What effects change in a stage, by the key of their training: a strong one's local fields are its own."""
+    return {
+        a.training.key: (a.changes(stage.model.mesh, materials),)
+        for a in actions
+        if a.training and a.changes and a.touches(stage.name)
+    }

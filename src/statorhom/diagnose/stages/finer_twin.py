@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from statorhom.diagnose.stages.broken_response import Response, responses
+from statorhom.diagnose.stages.broken_response import Response, changes_of, own_examples, responses
 from statorhom.diagnose.stages.refinement import Addition, Refinement
-from statorhom.diagnose.stages.stage_model import StageModel, finely_layered, on_mesh, with_reference
+from statorhom.diagnose.stages.stage_model import StageModel, finely_layered, on_mesh
 from statorhom.identify.residuals.model_error import ModelError
 from statorhom.model.affine import Materials
 from statorhom.model.broken.change import Change, PieceChange
@@ -47,12 +47,15 @@ def refinement(
     labels = frozenset(a.label for a in breaking if a.label)
     if known is not None and known.holds_at(labels, sizes):
         return known
-    if not any(_is_deep(c) for c in _changes(stage, materials, breaking)):
+    changes = changes_of(stage, materials, breaking)
+    if not any(_is_deep(c) for c in changes):
         return None
-    coarse = _responses(stage, materials, breaking)
+    trainings = [a.training for a in breaking if a.training is not None]
+    coarse = responses(stage, changes, trainings)
     if not _is_strong(coarse) or stage.finely_layered.mesh.full_dof > LARGEST:
         return None
-    fine = _responses(_twin(stage, materials, breaking), materials, breaking)
+    twin = _twin(stage, materials, breaking)
+    fine = responses(twin, changes_of(twin, materials, breaking), trainings)
     return Refinement(labels, tuple(sizes), _additions(coarse, fine))
 
 
@@ -74,17 +77,6 @@ def _additions(
     }
 
 
-def _responses(
-    stage: StageModel, materials: Materials, actions: Sequence[Action]
-) -> Mapping[ModeKey, Response]:
-    changes = _changes(stage, materials, actions)
-    return responses(stage, changes, [a.training for a in actions if a.training is not None])
-
-
-def _changes(stage: StageModel, materials: Materials, actions: Sequence[Action]) -> list[Change]:
-    return [c for a in actions if a.changes for c in a.changes(stage.model.mesh, materials)]
-
-
 def _twin(stage: StageModel, materials: Materials, actions: Sequence[Action]) -> StageModel:
     """The stage on the finer mesh, its named modes at the frequencies that both meshes' factors lead to."""
     density = finely_layered(stage.density)
@@ -95,7 +87,5 @@ def _twin(stage: StageModel, materials: Materials, actions: Sequence[Action]) ->
         for key, mode in theirs.items()
         if key in ours
     }
-    examples = {
-        a.training.key: (a.changes(twin.model.mesh, materials),) for a in actions if a.training and a.changes
-    }
-    return replace(with_reference(twin, materials, (), examples), error=ModelError(factors), exact=True)
+    examples = own_examples(twin, materials, actions)
+    return replace(twin, examples=examples, error=ModelError(factors), exact=True)
