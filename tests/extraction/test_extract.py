@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from statorhom.errors import ExtractionError
-from statorhom.extraction import Extraction, extract
+from statorhom.extraction import Extraction, extract, mode_search
 from statorhom.extraction.measured_modes import _named
+from statorhom.extraction.set_up_shifts import SetUps
+from statorhom.extraction.stabilization import LEAST_SHARE
 from statorhom.modes.mac import mac, subspace_mac
 from statorhom.recordings.frf_set import FrfSet
 from synthetic_frfs import frf_set, ring_points, ring_shape
@@ -190,3 +193,30 @@ def test_shapes_and_names_of_a_stator_s_doublets() -> None:
         assert mac(mode.shape, shape) >= 0.98
         assert mode.frequency_hz == pytest.approx(frequency, rel=5e-4)
         assert mode.loss_factor == pytest.approx(loss, rel=0.08)
+
+
+def test_the_other_half_of_a_doublet_is_listed_though_the_hammer_stands_near_its_node() -> None:
+    # the start estimator spends its orders on the stronger half
+    angle = np.arcsin(0.01) / 2
+    shapes = np.array([ring_shape(POINTS, 2, angle), ring_shape(POINTS, 2, angle + np.pi / 4)])
+    poles = [(1200.0, 0.009), (1238.0, 0.009)]
+    found = extract(frf_set(AXIS, POINTS, [0], poles, shapes, noise=0.005))
+    assert len(found.modes) == 2
+    assert found.modes[1].stability < LEAST_SHARE
+    assert found.modes[1].frequency_hz == pytest.approx(1238.0, abs=4 * found.modes[1].frequency_sd_hz)
+
+
+def test_no_load_is_looked_for_where_modes_that_stay_explain_the_recording(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    # modes that lie close look from afar like modes that move, and a load would explain them too
+    def no_load(*_: object) -> None:
+        raise AssertionError("a load was looked for")
+
+    monkeypatch.setattr(mode_search, "moving_set_ups", lambda _: SetUps.POINTS)
+    monkeypatch.setattr(sys.modules[extract.__module__], "find_load", no_load)
+    poles = [(f, 0.008) for f in (900.0, 1050.0, 1200.0, 1350.0, 1500.0)]
+    shapes = np.array([ring_shape(POINTS, order, 0.1) for order in (2, 3, 4, 5, 1)])
+    found = extract(frf_set(AXIS, POINTS, [0], poles, shapes, noise=0.005))
+    np.testing.assert_allclose(frequencies(found), [f for f, _ in poles], rtol=1e-4)
+    assert found.loaded is None

@@ -13,7 +13,7 @@ from statorhom.extraction.mode_search import FittedWindow, ModeSearch
 from statorhom.extraction.moving_modes import few_stay, stay
 from statorhom.extraction.noise import expected_sd, noise_sd
 from statorhom.extraction.point_grid import PointGrid, point_grid
-from statorhom.extraction.roving.find_load import explained, find_load, freed
+from statorhom.extraction.roving.find_load import find_load, freed
 from statorhom.extraction.roving.load import RovingLoad
 from statorhom.extraction.roving.loaded import loaded
 from statorhom.extraction.stabilization import LEAST_SHARE, Stabilization, stabilize
@@ -27,6 +27,8 @@ Start = tuple[ComplexArray, ComplexArray, Stabilization]
 
 _BROAD = 0.1  # loss factor from which on a mode has no peak of its own among others; then …
 _KNOWN = 5e-4  # … its frequency's standard deviation must be less than this part of it
+_AT_NOISE = 1.2  # misfit, of the noise …
+_CLEAR_SHAPE = 3.0  # … and least shape, of its standard deviation, of a mode that no stable pole shows
 _LOCATED = 0.5  # largest standard deviation of a mode's frequency, in half-power bandwidths
 
 
@@ -56,29 +58,26 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
     decay = float(np.mean([one.window_decay_per_s for one in sets]))
     start = stabilize(grid, sd)
     search, stable = _search(grid, sd, start), start[2]
-    load = find_load(search, search.first_look())
-    without: Extraction | None = None
-    if load is not None:
-        without, whole = _freed(grid, noise, load, decay)
-        if whole and load.evident:
-            return without
+    first = search.first_look()
     if search.set_ups is not None:
-        # what looks from afar like poles that move may be doublets that are barely split
+        # what looks from afar like poles that move may be doublets that are barely split, or modes that lie close
         still = _search(grid, sd, start, steady=True)
         windows = still.run(lambda found: few_stay([one.fitted for one in found]))
         if stay([one.fitted for one in windows]):
             return _extraction(still, windows, noise, stable, decay)
-    return without or _extraction(search, search.run(), noise, stable, decay)
+    load = find_load(search, first)
+    if load is not None:
+        return _freed(grid, noise, load, decay)
+    return _extraction(search, search.run(), noise, stable, decay)
 
 
-def _freed(grid: PointGrid, noise: FloatArray, load: RovingLoad, decay: float) -> tuple[Extraction, bool]:
-    """Modes of a recording that is freed of a load, and whether they explain it."""
+def _freed(grid: PointGrid, noise: FloatArray, load: RovingLoad, decay: float) -> Extraction:
+    """Modes of a recording that is freed of a load."""
     grid, noise, missed = freed(grid, noise, load)
     sd = np.hypot(expected_sd(grid, noise), missed)
     start = stabilize(grid, sd)
     search = _search(grid, sd, start, steady=True)
-    windows = search.run()
-    return loaded(_extraction(search, windows, noise, start[2], decay), load), explained(windows)
+    return loaded(_extraction(search, search.run(), noise, start[2], decay), load)
 
 
 def _search(grid: PointGrid, sd: FloatArray, start: Start, steady: bool = False) -> ModeSearch:
@@ -125,10 +124,22 @@ def _extraction(
 
 
 def _is_mode(mode: ExtractedMode, band: tuple[float, float]) -> bool:
-    """Whether a pole is listed: inside the band, shown by enough model orders and located."""
+    """Whether a pole is listed: inside the band, located, and shown by enough model orders or clear."""
     broad = mode.bandwidth_hz > _BROAD * mode.frequency_hz
     located = mode.frequency_sd_hz < (_KNOWN * mode.frequency_hz if broad else _LOCATED * mode.bandwidth_hz)
-    return band[0] <= mode.frequency_hz <= band[1] and located and mode.stability >= LEAST_SHARE
+    return (
+        band[0] <= mode.frequency_hz <= band[1]
+        and located
+        and (mode.stability >= LEAST_SHARE or _clear(mode))
+    )
+
+
+def _clear(mode: ExtractedMode) -> bool:
+    """Whether a mode needs no vote of the start estimator, whose orders go to stronger ones nearby.
+
+    Where noise explains what the modes leave, no ripple of the recording is taken for one.
+    """
+    return mode.misfit < _AT_NOISE and mode.shape_to_noise > _CLEAR_SHAPE
 
 
 def _residual_terms(

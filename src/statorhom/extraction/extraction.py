@@ -76,6 +76,14 @@ class ExtractedMode:
         """Half-power bandwidth η f_r as it shows in the data."""
         return self.frequency_hz * self.observed.imag / self.observed.real
 
+    @property
+    def shape_to_noise(self) -> float:
+        """Root mean square of the shape over its standard deviation, over the points with data."""
+        known = np.isfinite(self.shape_sd) & (self.shape_sd > 0)
+        if not known.any():
+            return 0.0
+        return float(np.sqrt(np.mean(np.abs(self.shape[known] / self.shape_sd[known]) ** 2)))
+
     def receptance(self, frequency_hz: npt.ArrayLike) -> ComplexArray:
         """The mode's part of the receptances (m/N), shape (points, references, lines)."""
         squared = (2 * np.pi * np.asarray(frequency_hz, dtype=float)) ** 2

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -37,13 +35,6 @@ def test_shifts_are_those_of_the_loaded_eigenproblem() -> None:
         exact = np.sort(np.linalg.eigvals(np.linalg.solve(added, np.diag(POLES.real))).real)
         found = POLES.real * (1 + load().relative_shifts()[:, plane]) ** 2
         np.testing.assert_allclose(found, exact, rtol=1e-9)
-
-
-def test_a_load_is_evident_that_moves_poles_by_a_part_of_their_bandwidth() -> None:
-    # half of 0.012 and of 0.020, over a loss factor of 0.006
-    assert load().evident
-    assert replace(load(), load=LOADS / 10).evident
-    assert not replace(load(), load=LOADS / 20).evident
 
 
 def test_loads_follow_from_where_they_move_the_poles() -> None:

@@ -11,7 +11,6 @@ import numpy.typing as npt
 from statorhom.extraction.mode_search import FittedWindow, ModeSearch
 from statorhom.extraction.moving_modes import distinct
 from statorhom.extraction.point_grid import PointGrid
-from statorhom.extraction.pole_price import misfit
 from statorhom.extraction.roving.first_load import first_load
 from statorhom.extraction.roving.load import RovingLoad
 from statorhom.extraction.roving.load_fit import fitted_load
@@ -24,7 +23,7 @@ from statorhom.extraction.set_up_shifts import SetUps
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
-_EXPLAINED = 3.0  # median misfit up to which a load explains a recording, or the modes of the freed one do
+_EXPLAINED = 3.0  # median misfit up to which a load explains a recording
 _WELL = 1.5  # misfit around every mode up to which no other load is looked for
 _HOPELESS = 30.0  # median misfit of single planes from which on no load explains all of them
 _MODEL = 0.003  # part of what the load changes that its model may miss
@@ -65,11 +64,6 @@ def _start(first: Sequence[FittedWindow]) -> ComplexArray:
     )
     narrow = poles[poles.imag < BROAD * poles.real]
     return np.asarray(narrow[np.argsort(narrow.real)], dtype=complex)
-
-
-def explained(windows: Sequence[FittedWindow]) -> bool:
-    """Whether the modes of a recording freed of its load leave about the noise in most windows."""
-    return not windows or bool(np.median([misfit(one.window, one.fit) for one in windows]) < _EXPLAINED)
 
 
 def freed(grid: PointGrid, noise: FloatArray, load: RovingLoad) -> tuple[PointGrid, FloatArray, FloatArray]:

@@ -21,7 +21,6 @@ IntArray = npt.NDArray[np.int_]
 
 _NEWTON = 30
 _SETTLED = 1e-12
-_EVIDENT = 0.1  # bandwidths that a load moves most modes by at least where nothing else looks like it
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,12 +53,6 @@ class RovingLoad:
 
     def __len__(self) -> int:
         return len(self.poles)
-
-    @property
-    def evident(self) -> bool:
-        """Whether it moves most modes by so much of their bandwidth that barely split doublets do not look like it."""
-        moved = 0.5 * self.load.max(axis=1) * self.poles.real / self.poles.imag
-        return bool(np.median(moved) > _EVIDENT)
 
     def halves(self, mode: int) -> tuple[complex, complex]:
         """Poles of a doublet's halves, the lower one first."""
