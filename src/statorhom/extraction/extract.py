@@ -28,7 +28,7 @@ Start = tuple[ComplexArray, ComplexArray, Stabilization]
 _BROAD = 0.1  # loss factor from which on a mode has no peak of its own among others; then …
 _KNOWN = 5e-4  # … its frequency's standard deviation must be less than this part of it
 _AT_NOISE = 1.2  # misfit, of the noise …
-_CLEAR_SHAPE = 3.0  # … and least shape, of its standard deviation, of a mode that no stable pole shows
+_CLEAR_SHAPE = 10.0  # … and least shape, of its standard deviation, of a mode that no stable pole shows
 _LOCATED = 0.5  # largest standard deviation of a mode's frequency, in half-power bandwidths
 
 

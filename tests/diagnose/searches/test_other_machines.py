@@ -125,6 +125,26 @@ def test_only_dimensions_of_the_first_step_are_tried(monkeypatch: pytest.MonkeyP
     assert tried == [(n, f) for n in ("length", "yoke") for f in FACTORS]
 
 
+@pytest.mark.parametrize("better", [0, 1])
+def test_a_machine_has_typical_constants_or_those_of_the_typed_one(
+    monkeypatch: pytest.MonkeyPatch, better: int
+) -> None:
+    begun: list[list[float]] = []
+
+    def followed(_: Any, z: np.ndarray) -> Any:
+        begun.append(z.tolist())
+        return SimpleNamespace(objective=float(len(begun) - 1 != better), z=z)
+
+    monkeypatch.setattr(module, "_alone", lambda hypothesis: hypothesis)
+    monkeypatch.setattr(module, "on_its_own_machine", lambda hypothesis, _: hypothesis)
+    monkeypatch.setattr(module, "through_wide_valleys", followed)
+    yoke = SimpleNamespace(parameters=(SimpleNamespace(absent=10.0, internal=lambda value: value),))
+    one: Any = SimpleNamespace(hypothesis=hypothesis_of(yoke), z=np.array([0.7, -0.2, 0.1]))
+    left, there = module._of_first_step(one, 0.9)
+    assert begun == [[0.0, 0.0, 9.0], [0.7, -0.2, 9.0]]
+    assert (left, there.tolist()) == (0.0, begun[better])
+
+
 @pytest.mark.parametrize(("kind", "tried"), [("frequency", True), ("density", True), ("split", False)])
 def test_what_parts_doublets_is_no_dimension(
     machines: Machines, monkeypatch: pytest.MonkeyPatch, kind: str, tried: bool

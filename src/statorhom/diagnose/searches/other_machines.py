@@ -72,14 +72,19 @@ def _alone(hypothesis: Hypothesis) -> Hypothesis:
 
 
 def _of_first_step(start: Start, factor: float) -> tuple[float, np.ndarray]:
-    """What a dimension near a part of the typed one leaves of the first step, and where; infinite where nothing can."""
-    alone, z = _alone(start.hypothesis), np.zeros_like(start.z)
+    """What a dimension near a part of the typed one leaves of the first step, and where; infinite where nothing can.
+
+    From typical constants, and from those of the typed machine, of which a dimension leaves some where they belong.
+    """
+    alone, typical = _alone(start.hypothesis), np.zeros_like(start.z)
     (value,) = alone.candidates[-1].parameters
     assert value.absent is not None
-    z[-1] = value.internal(factor * value.absent)
+    typical[-1] = value.internal(factor * value.absent)
     try:
-        drawn = on_its_own_machine(alone, z)
+        drawn = on_its_own_machine(alone, typical)
     except StatorhomError:
-        return np.inf, z
-    found = through_wide_valleys(drawn, z)
-    return (np.inf, z) if found is None else (found.objective, found.z)
+        return np.inf, typical
+    begun = typical, np.append(start.z[:-1], typical[-1])
+    found = [r for z in begun if (r := through_wide_valleys(drawn, z)) is not None]
+    best = min(found, key=lambda r: r.objective, default=None)
+    return (np.inf, typical) if best is None else (best.objective, best.z)
