@@ -97,6 +97,30 @@ def test_limits_hold_one_coordinate_and_not_the_others(wish: float, there: float
 
 
 @dataclass
+class Saturated(Walled):
+    """Rows that count no more than 3, on either side of 0.8, beside one of another coordinate."""
+
+    def limits(self) -> tuple[np.ndarray, np.ndarray]:
+        return np.full(2, -10.0), np.full(2, 10.0)
+
+    def paired(self, _: np.ndarray) -> Saturated:
+        return self
+
+    def residuals(self, z: np.ndarray) -> np.ndarray:
+        return np.array([*np.full(19, 3.0 * np.tanh(2.0 * (z[0] - 0.8))), 10.0 * (z[1] - 0.3)])
+
+    def chances(self, _: np.ndarray) -> np.ndarray:
+        return np.ones(20)
+
+
+@pytest.mark.parametrize("start", [1.8, -0.2])
+def test_rows_that_are_all_far_off_are_not_stepped_over(start: float) -> None:
+    # the longest step ends as far off on the other side, while the other coordinate gains by it
+    best = refit(Saturated(), np.array([start, 0.55]))  # type: ignore[type-var]
+    assert best.z[0] == pytest.approx(0.8, abs=1e-3)
+
+
+@dataclass
 class Turning(Valley):
     """A magnitude with a prior and an angle without one that hardly matters: the magnitude has to explain the data."""
 

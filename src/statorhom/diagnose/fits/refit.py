@@ -20,6 +20,7 @@ ROUNDS = 2  # of pairing anew
 ITERATIONS = 12
 PATIENCE = 2  # steps in a row that promise too little
 SETTLED = 0.05  # decrease of the objective that no longer matters
+LEAST_OF_PROMISE = 0.01  # of what a step promises to second order, that it has to keep
 LARGEST_STEP = 2.0  # in prior standard deviations
 LEAST_CURVATURE = 1.0  # of a coordinate as the damping sees it; the prior's own, but of places
 UNIFORM = 2 * np.pi / 12  # precision of a normal density that is as high as the uniform one
@@ -210,7 +211,11 @@ def _polished(hypothesis: _H, z: FloatArray, worth: float = np.inf) -> Refit[_H]
             except (StatorhomError, KeyError):
                 damping = max(10 * damping, 1e-2)
                 continue
-            if len(trial.residuals) == len(here.residuals) and trial.objective < here.objective:
+            # a row that is far off counts little: where all do, a step ends as far off on the other side
+            least = LEAST_OF_PROMISE * -float(2 * gradient @ step + step @ H @ step)
+            if len(trial.residuals) == len(here.residuals) and here.objective - trial.objective > max(
+                0.0, least
+            ):
                 better = trial
                 break
             damping = max(10 * damping, 1e-2)
