@@ -65,9 +65,9 @@ def extract(frf_sets: FrfSet | Sequence[FrfSet], band_hz: tuple[float, float] | 
         windows = still.run(lambda found: few_stay([one.fitted for one in found]))
         if stay([one.fitted for one in windows]):
             return _extraction(still, windows, noise, stable, decay)
-    load = find_load(search, first)
-    if load is not None:
-        return _freed(grid, noise, load, decay)
+        load = find_load(search, first)
+        if load is not None:
+            return _freed(grid, noise, load, decay)
     return _extraction(search, search.run(), noise, stable, decay)
 
 

@@ -212,10 +212,8 @@ def _polished(hypothesis: _H, z: FloatArray, worth: float = np.inf) -> Refit[_H]
                 damping = max(10 * damping, 1e-2)
                 continue
             # a row that is far off counts little: where all do, a step ends as far off on the other side
-            least = LEAST_OF_PROMISE * -float(2 * gradient @ step + step @ H @ step)
-            if len(trial.residuals) == len(here.residuals) and here.objective - trial.objective > max(
-                0.0, least
-            ):
+            least = LEAST_OF_PROMISE * max(0.0, -float(2 * gradient @ step + step @ H @ step))
+            if len(trial.residuals) == len(here.residuals) and trial.objective < here.objective - least:
                 better = trial
                 break
             damping = max(10 * damping, 1e-2)
