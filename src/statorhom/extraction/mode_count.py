@@ -26,7 +26,7 @@ _FALLING = 0.8  # … while one more leaves at most this part of the misfit
 _BESIDE = 2.0  # half-power bandwidths within which a doublet's other mode may lie that no stable pole shows
 _HOPELESS = 0.3  # of the price: a candidate that promises less before its pole is optimized is left
 _OUTSIDE = 0.5  # of a window's width that a pole may lie beyond it
-_CANDIDATES = 2
+_CANDIDATES = 4  # trial poles whose fits are looked at: the best may be what no mode is
 _TRIAL_ITERATIONS = 12  # the sweeps refine what is kept
 _SAME_SHAPE = 0.95  # MAC
 _FLANK = 10.0  # bandwidths over which a mode's own curve may be inexact …
@@ -163,9 +163,8 @@ def _with_candidate(among: _Among, fit: WindowFit, *, faint: bool = False) -> Wi
     window, neighbours = among.window, among.neighbours
     known = np.concatenate([fit.modes.poles, neighbours.poles])
     trials = trial_poles(window, known, among.reach)
-    for candidate in best_candidates(window, fit, neighbours, trials, _CANDIDATES):
-        if 2 * candidate.gain / misfit(window, fit) < _HOPELESS * price(window):
-            return None
+    least = 0.5 * _HOPELESS * price(window) * misfit(window, fit)
+    for candidate in best_candidates(window, fit, neighbours, trials, least, _CANDIDATES):
         larger = fit_window(
             window,
             fit.modes.joined(steady_modes(np.array([candidate.pole]), candidate.part[None])),

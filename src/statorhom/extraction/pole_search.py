@@ -6,23 +6,29 @@ linear least squares alone, so a whole grid of trial frequencies and loss factor
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.extraction.modal_model import Modes, Window, columns, weighted_products
+from statorhom.extraction.modal_model import Linear, Modes, Window, columns, solve_linear, weighted_products
 from statorhom.extraction.window_fit import WindowFit
 
 FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
+IntArray = npt.NDArray[np.int_]
 
 _OFFSETS = (-1.0, -0.4, -0.1, 0.0, 0.1, 0.4, 1.0)  # of trial poles beside known ones, in bandwidths
-_LEAST_NEW = 1e-7  # part of a column that must lie outside the known columns
+_LEAST_NEW = 1e-6  # part of a column that must lie outside the known columns; rounding leaves less
 _LARGEST_LOSS = 0.5
 _LINES_PER_BANDWIDTH = 1.5  # a narrower pole cannot be told from one bad line
 _LOSS_STEP = 3.0  # trial loss factors; a trial pole half a bandwidth off still finds its mode
 _CHUNK = 48
+_SURPRISE = (
+    2.0  # times what it promises where all points are weighted alike: so much a trial may gain at most
+)
 
 
 @dataclass(frozen=True)
@@ -52,68 +58,141 @@ def trial_poles(window: Window, known: ComplexArray, reach: tuple[float, float] 
 
 
 def best_candidates(
-    window: Window, fit: WindowFit, neighbours: Modes | None, trials: ComplexArray, count: int = 1
-) -> list[Candidate]:
-    """Trial poles of the largest gain, at most one per bandwidth."""
-    phi = columns(window, fit.modes, neighbours)
-    unscaled = fit.linear.coefficients / fit.linear.norms
-    residual = window.values - (unscaled[:, None] @ phi.reshape(*phi.shape[:2], -1)).reshape(
-        window.values.shape
-    )
-    weighted_residual = window.weights * residual
-    gains, scores = [], []
-    for begin in range(0, len(trials), _CHUNK):
-        curve = window.binned(1.0 / (trials[begin : begin + _CHUNK, None] - window.squared))
-        gain, part = _gains(window, fit, phi, weighted_residual, curve)
-        gains.append(gain)
-        scores.append(part)
-    gain, parts = np.concatenate(gains), np.concatenate(scores)
-    chosen: list[Candidate] = []
-    for i in np.argsort(-gain):
-        near = any(abs(trials[i] - c.pole) < abs(c.pole.imag) + trials[i].imag for c in chosen)
-        if not near:
-            chosen.append(Candidate(complex(trials[i]), parts[i], float(gain[i])))
-        if len(chosen) == count:
-            break
-    return chosen
+    window: Window,
+    fit: WindowFit,
+    neighbours: Modes | None,
+    trials: ComplexArray,
+    least: float = 0.0,
+    count: int = 1,
+) -> Iterator[Candidate]:
+    """Trial poles of the largest gains above `least`, at most one per bandwidth, the best first.
+
+    Far from known poles gains are computed to the last for those trials alone that promise enough where all points
+    are weighted alike: products for every point and pair of columns are what takes long.
+    """
+    scores = _Scores(window, fit, neighbours, trials)
+    promise, open_trials = scores.promises(), np.ones(len(trials), dtype=bool)
+    gain, parts = np.full(len(trials), np.nan), np.zeros((len(trials), window.values.shape[1]), dtype=complex)
+    for _ in range(count):
+        while True:
+            best = np.nanmax(gain[open_trials], initial=least)
+            chosen = np.flatnonzero(open_trials & np.isnan(gain) & (_SURPRISE * promise > best))
+            if not len(chosen):
+                break
+            chosen = chosen[np.argsort(-promise[chosen], kind="stable")[:_CHUNK]]
+            gain[chosen], parts[chosen] = scores.gains(chosen)
+        rest = np.where(open_trials & (gain > least), gain, -np.inf)
+        first = int(np.argmax(rest))
+        if np.isneginf(rest[first]):
+            return
+        yield Candidate(complex(trials[first]), parts[first], float(gain[first]))
+        open_trials &= ~_near(trials, trials[first])
 
 
-def _gains(
-    window: Window, fit: WindowFit, phi: ComplexArray, weighted_residual: ComplexArray, curve: ComplexArray
-) -> tuple[FloatArray, ComplexArray]:
-    """Gain of every trial with its best participation, and that participation."""
-    points, references = window.values.shape[:2]
+def _near(poles: ComplexArray, pole: complex) -> npt.NDArray[np.bool_]:
+    """Whether peaks overlap, shape (poles,)."""
+    return np.asarray(np.abs(poles - pole) < poles.imag + abs(pole.imag))
+
+
+@dataclass(frozen=True)
+class _Scores:
+    """Trial poles beside a fit."""
+
+    window: Window
+    fit: WindowFit
+    neighbours: Modes | None
+    trials: ComplexArray
+
+    @cached_property
+    def phi(self) -> ComplexArray:
+        """The fit's columns, shape (1 or points, columns, references, lines)."""
+        return columns(self.window, self.fit.modes, self.neighbours)
+
+    @cached_property
+    def weighted_residual(self) -> ComplexArray:
+        unscaled = self.fit.linear.coefficients / self.fit.linear.norms
+        fitted = unscaled[:, None] @ self.phi.reshape(*self.phi.shape[:2], -1)
+        residual = self.window.values - fitted.reshape(self.window.values.shape)
+        return np.asarray(self.window.weights * residual)
+
+    def promises(self) -> FloatArray:
+        """Gains as they are where the weights of all points run alike along the lines, shape (trials,).
+
+        Infinite where it takes each point's weights to tell a new column from the known ones.
+        """
+        if len(self.phi) > 1:
+            return np.full(len(self.trials), np.inf)
+        size = self.window.weights.sum(axis=(1, 2), keepdims=True)
+        weights = np.mean(self.window.weights / np.maximum(size, np.finfo(float).tiny), axis=0, keepdims=True)
+        alike = replace(self.window, values=self.window.values[:1], weights=weights)
+        linear = solve_linear(alike, self.phi)
+        chunks = np.array_split(np.arange(len(self.trials)), max(1, len(self.trials) // _CHUNK))
+        promise = np.concatenate([self._promised(chunk, alike, linear) for chunk in chunks])
+        return np.where(self._like_known(), np.inf, promise)
+
+    def _like_known(self) -> npt.NDArray[np.bool_]:
+        """Trials beside known poles, and beyond the lines, where a pole looks like a residual term."""
+        lines = self.window.squared
+        known = [self.fit.modes] if self.neighbours is None else [self.fit.modes, self.neighbours]
+        alike = [_near(self.trials, pole) for modes in known for pole in modes.poles]
+        return np.any([*alike, self.trials.real < lines[0], self.trials.real > lines[-1]], axis=0)
+
+    def _promised(self, chosen: IntArray, alike: Window, linear: Linear) -> FloatArray:
+        curve = self._curve(chosen)
+        diagonal = _diagonal(self.window.weights, curve)
+        common = _diagonal(alike.weights, curve)
+        schur = _schur(alike.weights, linear, self.phi, curve)
+        root = np.sqrt(diagonal / np.maximum(common, np.finfo(float).tiny))
+        schur = schur * root[..., None] * root[..., None, :]
+        any_fall = np.full(len(self.window.values), np.inf)
+        return _with_participation(schur, self._score(curve), diagonal, any_fall)[0]
+
+    def gains(self, chosen: IntArray) -> tuple[FloatArray, ComplexArray]:
+        """Gain of some trials with their best participations, shape (chosen,), and these."""
+        curve = self._curve(chosen)
+        schur = _schur(self.window.weights, self.fit.linear, self.phi, curve)
+        diagonal = _diagonal(self.window.weights, curve)
+        return _with_participation(schur, self._score(curve), diagonal, self.fit.linear.chi2)
+
+    def _curve(self, chosen: IntArray) -> ComplexArray:
+        return self.window.binned(1.0 / (self.trials[chosen, None] - self.window.squared))
+
+    def _score(self, curve: ComplexArray) -> ComplexArray:
+        """Inner products with what is left, shape (trials, points, references)."""
+        return np.asarray((self.weighted_residual @ curve.conj().T).transpose(2, 0, 1))
+
+
+def _diagonal(weights: FloatArray, curve: ComplexArray) -> FloatArray:
+    """Σ w |curve|², shape (trials, points, references)."""
+    return np.asarray((weights @ (np.abs(curve) ** 2).T).transpose(2, 0, 1))
+
+
+def _schur(weights: FloatArray, linear: Linear, phi: ComplexArray, curve: ComplexArray) -> ComplexArray:
+    """What of the new columns lies outside the known ones, shape (trials, points, references, references)."""
+    points, references = weights.shape[:2]
     trials, known = len(curve), phi.shape[1]
-    conjugate = curve.conj().T
-    score = np.empty((trials, points, references), dtype=complex)
     cross = np.empty((references, points, known, trials), dtype=complex)
-    diagonal = np.empty((references, points, trials))
     for j in range(references):
-        weights = window.weights[:, j]
-        score[:, :, j] = (weighted_residual[:, j] @ conjugate).T
-        products = weighted_products(weights, curve[None], phi[:, :, j])
-        cross[j] = products.transpose(0, 2, 1) / fit.linear.norms[:, :, None]
-        diagonal[j] = weights @ (np.abs(curve) ** 2).T
-    # Schur complement: what of the new columns lies outside the known ones
+        products = weighted_products(weights[:, j], curve[None], phi[:, :, j])
+        cross[j] = products.transpose(0, 2, 1) / linear.norms[:, :, None]
     schur = np.empty((trials, points, references, references), dtype=complex)
+    diagonal = _diagonal(weights, curve)
     for j in range(references):
-        solved = fit.linear.inverse @ cross[j].conj()
+        solved = linear.inverse @ cross[j].conj()
         for i in range(references):
             schur[:, :, i, j] = -np.einsum("kat,kat->tk", cross[i], solved)
-        schur[:, :, j, j] += diagonal[j].T
-    least = _LEAST_NEW * diagonal.max(axis=0).T
-    if references == 1:
-        new = schur[..., 0, 0].real
-        gain = np.where(
-            new > least, np.abs(score[..., 0]) ** 2 / np.maximum(new, least + np.finfo(float).tiny), 0.0
-        )
-        return gain.sum(axis=1), np.ones((trials, 1), dtype=complex)
-    return _with_participation(schur, score, least)
+        schur[:, :, j, j] += diagonal[:, :, j]
+    return schur
 
 
 def _with_participation(
-    schur: ComplexArray, score: ComplexArray, least: FloatArray
+    schur: ComplexArray, score: ComplexArray, diagonal: FloatArray, chi2: FloatArray
 ) -> tuple[FloatArray, ComplexArray]:
+    """Gain of every trial with its best participation, and that participation."""
+    least = _LEAST_NEW * diagonal.max(axis=2)
+    if schur.shape[-1] == 1:
+        new = schur[..., 0, 0].real
+        return _gain(score[..., 0], new, least, chi2), np.ones((len(schur), 1), dtype=complex)
     mean = schur.mean(axis=1)
     values, vectors = np.linalg.eigh(mean)
     usable = values > least.mean(axis=1)[:, None]
@@ -128,5 +207,11 @@ def _with_participation(
     part = np.where(norm > 0, part / np.maximum(norm, np.finfo(float).tiny), np.eye(1, part.shape[1]))
     along = np.einsum("ti,tki->tk", part.conj(), score)
     new = np.einsum("ti,tkij,tj->tk", part.conj(), schur, part).real
-    gain = np.where(new > least, np.abs(along) ** 2 / np.maximum(new, least + np.finfo(float).tiny), 0.0)
-    return gain.sum(axis=1), part
+    return _gain(along, new, least, chi2), part
+
+
+def _gain(score: ComplexArray, new: FloatArray, least: FloatArray, chi2: FloatArray) -> FloatArray:
+    """Fall of χ² of all points together, shape (trials,); none at a point falls by more than there is."""
+    gain = np.abs(score) ** 2 / np.maximum(new, least + np.finfo(float).tiny)
+    # more than that is rounding: the new column hardly differs from the known ones
+    return np.asarray(np.where((new > least) & (gain <= chi2), gain, 0.0).sum(axis=1))
