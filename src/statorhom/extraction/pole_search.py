@@ -26,9 +26,7 @@ _LARGEST_LOSS = 0.5
 _LINES_PER_BANDWIDTH = 1.5  # a narrower pole cannot be told from one bad line
 _LOSS_STEP = 3.0  # trial loss factors; a trial pole half a bandwidth off still finds its mode
 _CHUNK = 48
-_SURPRISE = (
-    2.0  # times what it promises where all points are weighted alike: so much a trial may gain at most
-)
+_SURPRISE = 2.0  # times what it promises where points are weighted alike: so much a trial may gain
 
 
 @dataclass(frozen=True)
@@ -110,9 +108,10 @@ class _Scores:
 
     @cached_property
     def weighted_residual(self) -> ComplexArray:
+        """Weight times what the fit leaves, shape (points, references, lines)."""
         unscaled = self.fit.linear.coefficients / self.fit.linear.norms
-        fitted = unscaled[:, None] @ self.phi.reshape(*self.phi.shape[:2], -1)
-        residual = self.window.values - fitted.reshape(self.window.values.shape)
+        explained = unscaled[:, None] @ self.phi.reshape(*self.phi.shape[:2], -1)
+        residual = self.window.values - explained.reshape(self.window.values.shape)
         return np.asarray(self.window.weights * residual)
 
     def promises(self) -> FloatArray:
@@ -139,19 +138,17 @@ class _Scores:
 
     def _promised(self, chosen: IntArray, alike: Window, linear: Linear) -> FloatArray:
         curve = self._curve(chosen)
-        diagonal = _diagonal(self.window.weights, curve)
-        common = _diagonal(alike.weights, curve)
-        schur = _schur(alike.weights, linear, self.phi, curve)
+        diagonal, common = _diagonal(self.window.weights, curve), _diagonal(alike.weights, curve)
+        schur = _schur(alike.weights, linear, self.phi, curve, common)
         root = np.sqrt(diagonal / np.maximum(common, np.finfo(float).tiny))
         schur = schur * root[..., None] * root[..., None, :]
-        any_fall = np.full(len(self.window.values), np.inf)
-        return _with_participation(schur, self._score(curve), diagonal, any_fall)[0]
+        return _with_participation(schur, self._score(curve), diagonal, np.inf)[0]
 
     def gains(self, chosen: IntArray) -> tuple[FloatArray, ComplexArray]:
         """Gain of some trials with their best participations, shape (chosen,), and these."""
         curve = self._curve(chosen)
-        schur = _schur(self.window.weights, self.fit.linear, self.phi, curve)
         diagonal = _diagonal(self.window.weights, curve)
+        schur = _schur(self.window.weights, self.fit.linear, self.phi, curve, diagonal)
         return _with_participation(schur, self._score(curve), diagonal, self.fit.linear.chi2)
 
     def _curve(self, chosen: IntArray) -> ComplexArray:
@@ -167,7 +164,9 @@ def _diagonal(weights: FloatArray, curve: ComplexArray) -> FloatArray:
     return np.asarray((weights @ (np.abs(curve) ** 2).T).transpose(2, 0, 1))
 
 
-def _schur(weights: FloatArray, linear: Linear, phi: ComplexArray, curve: ComplexArray) -> ComplexArray:
+def _schur(
+    weights: FloatArray, linear: Linear, phi: ComplexArray, curve: ComplexArray, diagonal: FloatArray
+) -> ComplexArray:
     """What of the new columns lies outside the known ones, shape (trials, points, references, references)."""
     points, references = weights.shape[:2]
     trials, known = len(curve), phi.shape[1]
@@ -176,7 +175,6 @@ def _schur(weights: FloatArray, linear: Linear, phi: ComplexArray, curve: Comple
         products = weighted_products(weights[:, j], curve[None], phi[:, :, j])
         cross[j] = products.transpose(0, 2, 1) / linear.norms[:, :, None]
     schur = np.empty((trials, points, references, references), dtype=complex)
-    diagonal = _diagonal(weights, curve)
     for j in range(references):
         solved = linear.inverse @ cross[j].conj()
         for i in range(references):
@@ -186,7 +184,7 @@ def _schur(weights: FloatArray, linear: Linear, phi: ComplexArray, curve: Comple
 
 
 def _with_participation(
-    schur: ComplexArray, score: ComplexArray, diagonal: FloatArray, chi2: FloatArray
+    schur: ComplexArray, score: ComplexArray, diagonal: FloatArray, chi2: FloatArray | float
 ) -> tuple[FloatArray, ComplexArray]:
     """Gain of every trial with its best participation, and that participation."""
     least = _LEAST_NEW * diagonal.max(axis=2)
@@ -210,7 +208,7 @@ def _with_participation(
     return _gain(along, new, least, chi2), part
 
 
-def _gain(score: ComplexArray, new: FloatArray, least: FloatArray, chi2: FloatArray) -> FloatArray:
+def _gain(score: ComplexArray, new: FloatArray, least: FloatArray, chi2: FloatArray | float) -> FloatArray:
     """Fall of χ² of all points together, shape (trials,); none at a point falls by more than there is."""
     gain = np.abs(score) ** 2 / np.maximum(new, least + np.finfo(float).tiny)
     # more than that is rounding: the new column hardly differs from the known ones
