@@ -25,8 +25,8 @@ def added(monkeypatch: pytest.MonkeyPatch, misfits: Sequence[float]) -> tuple[in
     # what the noise does not explain counts as noise, smooth along ten lines
     monkeypatch.setattr(mode_count, "dispersion", lambda _, fit: 10.0 * fit.chi2)
     monkeypatch.setattr(mode_count, "price", lambda _: 1.0)
-    among: Any = SimpleNamespace(window=SimpleNamespace(quiet=True))
-    found: Any = mode_count._larger(among, fits[0])  # type: ignore[arg-type]
+    among: Any = SimpleNamespace(window=None)
+    found: Any = mode_count._worth_their_price(among, fits[0])  # type: ignore[arg-type]
     return None if found is None else found.number, len(fits) - 1 - len(list(waiting))
 
 
@@ -50,14 +50,28 @@ def test_there_is_an_end_to_what_is_tried(monkeypatch: pytest.MonkeyPatch) -> No
 
 @pytest.mark.parametrize(
     ("misfits", "quiet", "number"),
-    [((300.0, 35.0, 3.0), False, 2), ((300.0, 35.0, 9.0), False, None), ((300.0, 35.0, 3.0), True, None)],
-    ids=["down to the noise", "not so far", "less noisy than models are exact"],
+    [
+        ((300.0, 35.0, 1.2), False, 2),
+        ((300.0, 35.0, 1.5, 1.38, 1.25), False, 4),
+        ((300.0, 35.0, 1.5, 1.45), False, 0),
+        ((300.0, 35.0, 3.0), False, 0),
+        ((300.0, 35.0, 1.2), True, 0),
+        ((1.4, 1.0), False, 0),
+    ],
+    ids=[
+        "down to the noise",
+        "bit by bit",
+        "stuck",
+        "not so far",
+        "less noisy than models are exact",
+        "there already",
+    ],
 )
 def test_faint_modes_are_modes_where_they_explain_everything(
-    monkeypatch: pytest.MonkeyPatch, misfits: Sequence[float], quiet: bool, number: int | None
+    monkeypatch: pytest.MonkeyPatch, misfits: Sequence[float], quiet: bool, number: int
 ) -> None:
     """Between broad peaks a mode makes up little of any FRF, and two of a wound stator's 39 were not taken."""
-    fits = [SimpleNamespace(chi2=misfit, number=number) for number, misfit in enumerate(misfits)]
+    fits = [SimpleNamespace(chi2=misfit, number=number, modes=(1,)) for number, misfit in enumerate(misfits)]
 
     def candidate(_: Any, fit: Any, *, faint: bool = False) -> Any:
         return fits[fit.number + 1] if faint and fit.number + 1 < len(fits) else None
@@ -65,7 +79,7 @@ def test_faint_modes_are_modes_where_they_explain_everything(
     monkeypatch.setattr(mode_count, "_with_candidate", candidate)
     monkeypatch.setattr(mode_count, "misfit", lambda _, fit: fit.chi2)
     monkeypatch.setattr(mode_count, "dispersion", lambda _, fit: fit.chi2)
-    monkeypatch.setattr(mode_count, "price", lambda _: 1.0)
+    monkeypatch.setattr(mode_count, "price", lambda _: 0.1)
     among: Any = SimpleNamespace(window=SimpleNamespace(quiet=quiet))
-    found: Any = mode_count._larger(among, fits[0])  # type: ignore[arg-type]
-    assert (None if found is None else found.number) == number
+    found: Any = mode_count._down_to_noise(among, fits[0])  # type: ignore[arg-type]
+    assert found.number == number

@@ -14,8 +14,9 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.extraction.clusters import cluster_lines, clusters, nearest, tiles
+from statorhom.extraction.doubtful_modes import drop_doubtful
 from statorhom.extraction.modal_model import Modes, Window, steady_modes
-from statorhom.extraction.mode_count import drop_doubtful, grow, prune
+from statorhom.extraction.mode_count import grow, prune
 from statorhom.extraction.moving_modes import most_move, moving_set_ups, refitted, with_moving_modes
 from statorhom.extraction.noise import LEAST_MODEL_ERROR
 from statorhom.extraction.point_grid import PointGrid

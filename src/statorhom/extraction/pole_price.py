@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from statorhom.extraction.modal_model import Window
 from statorhom.extraction.set_up_shifts import SetUps
 from statorhom.extraction.window_fit import WindowFit
 
 _LEAST_DISPERSION = 0.1  # the noise may be overestimated at sharp peaks, but not by more
+
+FloatArray = npt.NDArray[np.float64]
 
 
 def price(window: Window) -> float:
@@ -44,3 +47,13 @@ def dispersion(window: Window, fit: WindowFit) -> float:
     in it are not independent evidence for a mode.
     """
     return misfit(window, fit) * fit.linear.correlation
+
+
+def worth(window: Window, fit: WindowFit) -> FloatArray:
+    """Twice the log likelihood that every mode's shape brings."""
+    count = len(fit.modes)
+    variance = np.einsum("kcc->kc", fit.linear.inverse).real[:, :count]
+    square = np.abs(fit.linear.coefficients[:, :count]) ** 2
+    # a point without data in the window has neither coefficient nor variance
+    brought: FloatArray = 2 * np.sum(square / np.where(variance > 0, variance, np.inf), axis=0)
+    return brought / dispersion(window, fit)

@@ -13,7 +13,15 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from statorhom.extraction.modal_model import Linear, Modes, Window, columns, solve_linear, weighted_products
+from statorhom.extraction.modal_model import (
+    Linear,
+    Modes,
+    Window,
+    columns,
+    fitted,
+    solve_linear,
+    weighted_products,
+)
 from statorhom.extraction.window_fit import WindowFit
 
 FloatArray = npt.NDArray[np.float64]
@@ -110,7 +118,7 @@ class _Scores:
     def weighted_residual(self) -> ComplexArray:
         """Weight times what the fit leaves, shape (points, references, lines)."""
         unscaled = self.fit.linear.coefficients / self.fit.linear.norms
-        explained = unscaled[:, None] @ self.phi.reshape(*self.phi.shape[:2], -1)
+        explained = fitted(unscaled, self.phi.reshape(*self.phi.shape[:2], -1))
         residual = self.window.values - explained.reshape(self.window.values.shape)
         return np.asarray(self.window.weights * residual)
 
