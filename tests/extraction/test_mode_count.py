@@ -80,6 +80,7 @@ def test_faint_modes_are_modes_where_they_explain_everything(
     monkeypatch.setattr(mode_count, "misfit", lambda _, fit: fit.chi2)
     monkeypatch.setattr(mode_count, "dispersion", lambda _, fit: fit.chi2)
     monkeypatch.setattr(mode_count, "price", lambda _: 0.1)
-    among: Any = SimpleNamespace(window=SimpleNamespace(quiet=quiet))
-    found: Any = mode_count._down_to_noise(among, fits[0])  # type: ignore[arg-type]
+    window: Any = SimpleNamespace(quiet=quiet)
+    nothing: Any = None
+    found: Any = mode_count.grown_to_noise(window, fits[0], nothing, nothing, nothing)  # type: ignore[arg-type]
     assert found.number == number

@@ -71,7 +71,6 @@ def grow(
         How far beyond the window, in its width, poles are looked for.
     """
     among = _Among(window, neighbours, stable, reach)
-    fit = _down_to_noise(among, fit)
     for _ in range(most):
         larger = _worth_their_price(among, fit)
         if larger is None:
@@ -80,15 +79,24 @@ def grow(
     return fit
 
 
-def _down_to_noise(among: _Among, fit: WindowFit) -> WindowFit:
+def grown_to_noise(
+    window: Window,
+    fit: WindowFit,
+    neighbours: Modes,
+    stable: ComplexArray,
+    reach: tuple[float, float],
+) -> WindowFit:
     """Fit with as many modes more as it takes until noise explains what is left; as it was where none get there.
 
     Where broad modes overlap none need stand out for itself, beside one that does.
+
+    Parameters
+    ----------
+    stable, reach : as of `grow`.
     """
-    window = among.window
     if not len(fit.modes) or window.quiet or misfit(window, fit) < MODEL_MISFIT:
         return fit
-    return _worth_their_price(among, fit, faint=True) or fit
+    return _worth_their_price(_Among(window, neighbours, stable, reach), fit, faint=True) or fit
 
 
 def _worth_their_price(among: _Among, fit: WindowFit, *, faint: bool = False) -> WindowFit | None:

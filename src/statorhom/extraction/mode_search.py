@@ -16,7 +16,7 @@ import numpy.typing as npt
 from statorhom.extraction.clusters import cluster_lines, clusters, nearest, tiles
 from statorhom.extraction.doubtful_modes import drop_doubtful
 from statorhom.extraction.modal_model import Modes, Window, steady_modes
-from statorhom.extraction.mode_count import grow, prune
+from statorhom.extraction.mode_count import grow, grown_to_noise, prune
 from statorhom.extraction.moving_modes import most_move, moving_set_ups, refitted, with_moving_modes
 from statorhom.extraction.noise import LEAST_MODEL_ERROR
 from statorhom.extraction.point_grid import PointGrid
@@ -184,7 +184,8 @@ class ModeSearch:
         fit = drop_doubtful(window, fit, neighbours)
         if not self._visited(lines, fit.modes, neighbours, _SEEN):
             fit = self._with_moving(window, fit, neighbours)
-            fit = grow(window, fit, neighbours, self.stable, self._reach(lines))
+            where = neighbours, self.stable, self._reach(lines)
+            fit = grow(window, grown_to_noise(window, fit, *where), *where)
             fit = prune(window, fit, neighbours)
         self.visited.append((lines, np.sort_complex(np.concatenate([fit.modes.poles, neighbours.poles]))))
         # poles that are gone are marked, so that the places of the others stay; the sweep's end removes them
