@@ -57,6 +57,16 @@ def test_one_shape_in_one_place_is_one_mode(quiet: bool) -> None:
     assert len(drop_doubtful(window, chosen, NONE).modes) == 1
 
 
+def test_two_references_tell_no_third_mode_in_one_place() -> None:
+    """Of three poles within a tenth of a bandwidth any two may hold both shapes of a doublet."""
+    window = recorded(DOUBLET.T @ np.array([[1.0, 0.2], [0.1, 0.8]]))
+    parts = np.array([[1.0, 0.1], [0.2, 1.0], [1.0, -0.9]], dtype=complex)
+    three = steady_modes(PLACE + 0.02 * np.array([0.0, 0.04, 0.09]), parts)
+    fit = fit_window(window, three, NONE, 3)
+    assert sum(repeats(window, fit, NONE, m) for m in range(3)) == 1
+    assert len(drop_doubtful(window, fit, NONE).modes) == 2
+
+
 def test_what_a_ripple_could_be_is_a_mode_at_noise_alone() -> None:
     """A second shape of a twentieth of the first: beyond the noise it may be what the model lacks."""
     residue = np.outer(DOUBLET[0], [1.0, 0.6]) + 0.05 * np.outer(DOUBLET[1], [-0.6, 1.0])

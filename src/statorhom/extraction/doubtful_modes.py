@@ -18,6 +18,7 @@ _OUTSIDE = 0.5  # of a window's width that a pole may lie beyond it
 _SAME_SHAPE = 0.95  # MAC
 _SECOND_SHAPE = 0.1  # of the first, in what two poles of one place bring together: more is a doublet …
 _SECOND_SHAPE_AT_NOISE = 0.02  # … and this is where no ripple of the recording is left to explain
+_ONE_PLACE = 0.2  # bandwidths
 _FLANK = 10.0  # bandwidths over which a mode's own curve may be inexact …
 _LEAST_BESIDE = 0.1  # … by this part
 _LEAST_PRESENCE = 0.2  # of the receptance at a mode's frequency that it makes up, in half of the FRFs, …
@@ -70,13 +71,24 @@ def repeats(window: Window, fit: WindowFit, neighbours: Modes, index: int) -> bo
     curve = size / np.abs(poles - poles[index].real)
     overlap = distance < np.maximum(poles.imag, poles[index].imag)
     beside = (distance < _FLANK * poles.imag) & (strength[index] < _LEAST_BESIDE * curve)
-    alike = (mac > _SAME_SHAPE) & (strength > strength[index])
+    stronger = strength > strength[index]
+    crowd = stronger & (distance < _ONE_PLACE * poles.imag)
+    if np.count_nonzero(crowd) >= parts.shape[1] and _within(shapes[:, index], shapes[:, crowd]):
+        return True
+    alike = (mac > _SAME_SHAPE) & stronger
     second = _SECOND_SHAPE_AT_NOISE if _at_noise(window, fit) else _SECOND_SHAPE
     return any(
         (overlap[other] and _second_shape(shapes[:, [index, other]], parts[[index, other]]) < second)
         or (beside[other] and not overlap[other])
         for other in np.flatnonzero(alike & (overlap | beside)).tolist()
     )
+
+
+def _within(shape: ComplexArray, others: ComplexArray) -> bool:
+    """Whether a shape is made of others; as many references as these tell no further mode in their place."""
+    basis, _ = np.linalg.qr(others)
+    inside = np.linalg.norm(basis.conj().T @ shape) ** 2
+    return bool(inside > _SAME_SHAPE * np.linalg.norm(shape) ** 2)
 
 
 def _second_shape(shapes: ComplexArray, parts: ComplexArray) -> float:
