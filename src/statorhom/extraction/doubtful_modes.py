@@ -58,14 +58,16 @@ def repeats(window: Window, fit: WindowFit, neighbours: Modes, index: int) -> bo
 
     Distinct modes that overlap differ in shape. A pole with its neighbour's shape, within the neighbour's
     bandwidth or far below the neighbour's own curve, is what a frequency that shifts from set-up to set-up or
-    a resonance curve that is not exactly rational leaves over.
+    a resonance curve that is not exactly rational leaves over. So is a further pole in one place, of a shape that
+    as many as there are references have already.
     """
     poles = np.concatenate([fit.modes.poles, neighbours.poles])
     parts = np.concatenate([fit.modes.parts, neighbours.parts])
-    shapes = (fit.linear.coefficients / fit.linear.norms)[:, : len(poles)]
-    size = np.linalg.norm(shapes, axis=0) * np.linalg.norm(parts, axis=1)
+    shapes = fit.linear.unscaled[:, : len(poles)]
+    length = np.linalg.norm(shapes, axis=0)
+    size = length * np.linalg.norm(parts, axis=1)
     strength = size / poles.imag
-    norm = np.maximum(np.linalg.norm(shapes, axis=0), np.finfo(float).tiny)
+    norm = np.maximum(length, np.finfo(float).tiny)
     mac = np.abs(shapes[:, index].conj() @ shapes / norm[index] / norm) ** 2
     distance = np.abs(poles.real - poles[index].real)
     curve = size / np.abs(poles - poles[index].real)
@@ -76,11 +78,11 @@ def repeats(window: Window, fit: WindowFit, neighbours: Modes, index: int) -> bo
     if np.count_nonzero(crowd) >= parts.shape[1] and _within(shapes[:, index], shapes[:, crowd]):
         return True
     alike = (mac > _SAME_SHAPE) & stronger
-    second = _SECOND_SHAPE_AT_NOISE if _at_noise(window, fit) else _SECOND_SHAPE
+    if np.any(alike & beside & ~overlap):
+        return True
     return any(
-        (overlap[other] and _second_shape(shapes[:, [index, other]], parts[[index, other]]) < second)
-        or (beside[other] and not overlap[other])
-        for other in np.flatnonzero(alike & (overlap | beside)).tolist()
+        _is_one_shape(window, fit, shapes[:, [index, other]], parts[[index, other]])
+        for other in np.flatnonzero(alike & overlap).tolist()
     )
 
 
@@ -91,14 +93,15 @@ def _within(shape: ComplexArray, others: ComplexArray) -> bool:
     return bool(inside > _SAME_SHAPE * np.linalg.norm(shape) ** 2)
 
 
-def _second_shape(shapes: ComplexArray, parts: ComplexArray) -> float:
-    """How much of a second shape two poles of one place bring together, relative to the first.
+def _is_one_shape(window: Window, fit: WindowFit, shapes: ComplexArray, parts: ComplexArray) -> bool:
+    """Whether two poles of one place bring hardly more than one shape together.
 
     Of a doublet that does not split any two shapes of its plane fit, almost equal ones too: what is no matter of
     choice is the sum of their residues. One reference shows one shape of it alone.
     """
     values = np.linalg.svd(shapes @ parts, compute_uv=False)
-    return float(values[1] / values[0]) if len(values) > 1 and values[0] > 0 else 0.0
+    second = values[1] / values[0] if len(values) > 1 and values[0] > 0 else 0.0
+    return bool(second < (_SECOND_SHAPE_AT_NOISE if _at_noise(window, fit) else _SECOND_SHAPE))
 
 
 def _at_noise(window: Window, fit: WindowFit) -> bool:
@@ -117,7 +120,7 @@ def present(window: Window, fit: WindowFit, index: int) -> bool:
         return True
     line = int(np.searchsorted(window.squared, pole.real)) // window.bin
     line = min(line, window.values.shape[-1] - 1)
-    shape = (fit.linear.coefficients / fit.linear.norms)[:, index]
+    shape = fit.linear.unscaled[:, index]
     part = np.abs(shape[:, None] * fit.modes.parts[index]) / pole.imag
     measured = window.weights[..., line] > 0
     share = part[measured] / np.maximum(np.abs(window.values[..., line])[measured], np.finfo(float).tiny)

@@ -154,6 +154,11 @@ class Linear:
     norms: FloatArray
     correlation: float = 1.0
 
+    @property
+    def unscaled(self) -> ComplexArray:
+        """Coefficients of the columns as they are, shape (points, columns): of modes, their shapes."""
+        return self.coefficients / self.norms
+
 
 def unit_part(part: ComplexArray) -> ComplexArray:
     """Participation scaled to 1 at its largest component."""

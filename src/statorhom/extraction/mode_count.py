@@ -17,7 +17,6 @@ from statorhom.extraction.pole_price import dispersion, misfit, price, worth
 from statorhom.extraction.pole_search import best_candidates, trial_poles
 from statorhom.extraction.window_fit import WindowFit, fit_window
 
-FloatArray = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
 
 _MOST_NEW = 5  # modes per window and sweep

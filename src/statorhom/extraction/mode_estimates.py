@@ -31,7 +31,7 @@ def mode_estimates(
     covariance = np.linalg.pinv(fit.hessian, rcond=1e-14, hermitian=True) * excess
     linear = np.einsum("kcc->kc", fit.linear.inverse).real * excess
     moved = np.einsum("kcp,pq,kcq->kc", fit.cross, covariance, fit.cross.conj()).real
-    amplitude = fit.linear.coefficients / fit.linear.norms
+    amplitude = fit.linear.unscaled
     amplitude_sd = np.sqrt(linear + np.maximum(moved, 0.0)) / fit.linear.norms
     amplitude_sd[linear <= 0] = np.inf  # points without data in the window
     free = free_parts(fit.modes)

@@ -107,7 +107,7 @@ def most_move(windows: Sequence[bool]) -> bool:
 def _has_images(fit: WindowFit) -> bool:
     """Whether two poles that overlap show at different points: one mode in two places, exactly explained."""
     poles, count = fit.modes.poles, len(fit.modes)
-    size = np.abs((fit.linear.coefficients / fit.linear.norms)[:, :count])
+    size = np.abs(fit.linear.unscaled[:, :count])
     unit = size / np.maximum(np.linalg.norm(size, axis=0), np.finfo(float).tiny)
     apart = unit.T @ unit < _APART
     near = np.abs(poles.real[:, None] - poles.real[None]) < _OVERLAP * np.minimum(
@@ -192,7 +192,7 @@ def _other_part(part: ComplexArray) -> ComplexArray:
 def distinct(fit: WindowFit) -> list[int]:
     """Modes without those that overlap with a stronger one: a mode that moves has left several images."""
     poles = fit.modes.poles
-    amplitude = (fit.linear.coefficients / fit.linear.norms)[:, : len(poles)]
+    amplitude = fit.linear.unscaled[:, : len(poles)]
     strength = np.linalg.norm(amplitude, axis=0) / poles.imag
     kept: list[int] = []
     for m in np.argsort(-strength).tolist():

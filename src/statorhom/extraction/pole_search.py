@@ -117,8 +117,7 @@ class _Scores:
     @cached_property
     def weighted_residual(self) -> ComplexArray:
         """Weight times what the fit leaves, shape (points, references, lines)."""
-        unscaled = self.fit.linear.coefficients / self.fit.linear.norms
-        explained = fitted(unscaled, self.phi.reshape(*self.phi.shape[:2], -1))
+        explained = fitted(self.fit.linear.unscaled, self.phi.reshape(*self.phi.shape[:2], -1))
         residual = self.window.values - explained.reshape(self.window.values.shape)
         return np.asarray(self.window.weights * residual)
 

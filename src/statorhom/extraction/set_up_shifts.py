@@ -119,7 +119,7 @@ def _terms(
     linear = solve_linear(window, phi)
     flat = phi.reshape(len(phi), phi.shape[1], -1)
     values = window.values.reshape(len(window.values), -1)
-    residual = values - fitted(linear.coefficients / linear.norms, flat)
+    residual = values - fitted(linear.unscaled, flat)
     # ∂/∂δ of 1/(s(1 + δ)² − ω²)
     chain = -2 * modes.poles[:, None] * (1 + modes.shift)
     derivative = (modal_columns(window, modes, power=2) * chain[..., None])[:, chosen]

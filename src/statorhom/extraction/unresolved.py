@@ -64,7 +64,7 @@ def _split_sd(one: FittedWindow) -> npt.NDArray[np.float64]:
 
 
 def _size(fit: WindowFit) -> npt.NDArray[np.float64]:
-    amplitude = (fit.linear.coefficients / fit.linear.norms)[:, : len(fit.modes)]
+    amplitude = fit.linear.unscaled[:, : len(fit.modes)]
     size: npt.NDArray[np.float64] = np.linalg.norm(amplitude, axis=0) * np.linalg.norm(
         fit.modes.parts, axis=1
     )

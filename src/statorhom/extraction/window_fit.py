@@ -94,8 +94,7 @@ def _state(window: Window, modes: Modes, neighbours: Modes | None) -> tuple[Wind
     linear = solve_linear(window, phi)
     points = len(window.values)
     flat = phi.reshape(len(phi), phi.shape[1], -1)
-    unscaled = linear.coefficients / linear.norms
-    residual = window.values.reshape(points, -1) - fitted(unscaled, flat)
+    residual = window.values.reshape(points, -1) - fitted(linear.unscaled, flat)
     linear = replace(linear, correlation=residual_correlation(window, residual))
     empty = np.zeros((0, 0), dtype=complex)
     if not len(modes):
@@ -128,7 +127,7 @@ def reduced_terms(
     """
     weights = window.weights.reshape(len(window.values), -1)
     flat_d = derivative.reshape(len(derivative), derivative.shape[1], -1)
-    amplitude = (linear.coefficients / linear.norms)[:, owner]
+    amplitude = linear.unscaled[:, owner]
     score = amplitude.conj() * projected(flat_d, weights * residual)
     d_phi = weighted_products(weights, flat_d, flat) / linear.norms[:, None, :]
     moved = linear.inverse @ d_phi.conj().transpose(0, 2, 1)  # (points, columns, unknowns)
