@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from statorhom.errors import IdentificationError, RecordingError
+from statorhom.extraction.broad_modes import with_doubt
 from statorhom.extraction.doublet_motion import whole_doublets
 from statorhom.extraction.extract import extract
 from statorhom.extraction.extraction import ExtractedMode, Extraction
@@ -165,7 +166,9 @@ def measured_modes(
     modes, remarks = _named(extraction)
     modes = _with_hints(modes, extraction, frf_sets[0]) if hinted else modes
     modes, sensor = _with_sensor(modes, extraction)
-    said += [*extraction.remarks, *remarks, *_moving(modes, sensor), *_non_linear(modes)]
+    doubted, broad = with_doubt([one.mode for one in modes])
+    modes = tuple(replace(one, mode=mode) for one, mode in zip(modes, doubted, strict=True))
+    said += [*extraction.remarks, *remarks, *_moving(modes, sensor), *_non_linear(modes), *broad]
     if sweep is not None:
         said += second_stage(extraction.modes)
     return MeasuredModes(frf_sets, extraction, modes, _doublets(modes), tuple(dict.fromkeys(said)), sensor)

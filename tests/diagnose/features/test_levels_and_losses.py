@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from statorhom.diagnose.features.damping import JOINT, free_losses, losses_of, supported_losses
+from statorhom.diagnose.features.damping import JOINT, LOSS_SD, free_losses, losses_of, supported_losses
 from statorhom.diagnose.features.levels import level_bases, level_features, slipped
 from statorhom.diagnose.features.supported import SupportedReference
 from statorhom.diagnose.measured.feature import MOST
@@ -63,6 +64,16 @@ def test_no_loss_factor_pulls_harder_than_its_scatter() -> None:
     # a mode that vanished keeps its row, without a pull
     (lost,) = free_losses(test, test.modes[:1], KEYS[:1], {})
     assert lost.lost and lost.residual == 0.0
+
+
+def test_a_loss_factor_that_is_hardly_known_says_little() -> None:
+    known = rows(0.0, 0.3)
+    broad = tuple(replace(m, loss_factor_sd=0.4 * (m.loss_factor or 0.0)) for m in known)
+    plain, doubted = (
+        free_losses(MeasuredTest(0, "free", "free", m), m, KEYS, LOSSES) for m in (known, broad)
+    )
+    assert [f.sd for f in plain] == pytest.approx([LOSS_SD] * 2)
+    assert [f.sd for f in doubted] == pytest.approx([np.hypot(LOSS_SD, 0.4)] * 2)
 
 
 def test_springs_with_losses_damp_the_modes_that_they_hold() -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from math import exp, log
+from math import exp, hypot, log
 
 from statorhom.diagnose.features.line_weights import line_weights
 from statorhom.diagnose.features.supported import SupportedReference
@@ -96,23 +96,30 @@ def free_losses(
     """
     found = []
     for key in dict.fromkeys(k for k in keys if k is not None):
-        mean = mean_loss(measured, keys, key)
-        if mean is None:
+        known = mean_loss(measured, keys, key)
+        if known is None:
             continue
         if key in losses:
-            found.append(Feature("loss", test.name, key, log(mean), log(losses[key]), LOSS_SD))
+            mean, own = known
+            found.append(Feature("loss", test.name, key, log(mean), log(losses[key]), hypot(LOSS_SD, own)))
         else:
             found.append(Feature("loss", test.name, key, 0.0, 0.0, 1.0, lost=True))
     return found
 
 
-def mean_loss(measured: Sequence[MeasuredMode], keys: Sequence[ModeKey | None], key: ModeKey) -> float | None:
-    """Geometric mean of the loss factors of a mode's lines by what these say of it; None where none was measured."""
+def mean_loss(
+    measured: Sequence[MeasuredMode], keys: Sequence[ModeKey | None], key: ModeKey
+) -> tuple[float, float] | None:
+    """Geometric mean of the loss factors of a mode's lines by what these say of it, and the standard deviation of ln η.
+
+    None where none was measured.
+    """
     own = [(m, log(m.loss_factor)) for m, k in zip(measured, keys, strict=True) if k == key and m.loss_factor]
     if not own:
         return None
     lines, logs = zip(*own, strict=True)
-    return exp(float(line_weights(lines) @ logs))
+    weights = line_weights(lines)
+    return exp(float(weights @ logs)), hypot(*(weights * [_own_sd(m) for m in lines]).tolist())
 
 
 def supported_losses(
@@ -148,5 +155,11 @@ def supported_losses(
         own = sum(share * losses[k] for k, share in shares.items()) / whole
         loss = max((1.0 - springs) * own + springs * support, LEAST)
         seen, told = log(mode.loss_factor), log(loss)
-        found.append(Feature("loss", test.name, key, seen, told, LOSS_SD, rows=(mode.label,)))
+        sd = hypot(LOSS_SD, _own_sd(mode))
+        found.append(Feature("loss", test.name, key, seen, told, sd, rows=(mode.label,)))
     return found
+
+
+def _own_sd(mode: MeasuredMode) -> float:
+    """Standard deviation of ln η by its measurement alone."""
+    return (mode.loss_factor_sd or 0.0) / mode.loss_factor if mode.loss_factor else 0.0

@@ -111,9 +111,9 @@ def level_features(
         eta = [mean_loss(row, own, key) for row, own in zip(rows, keys, strict=True)]
         if eta[0] is None or eta[1] is None or not all(losses):
             continue
-        change = float(np.log(eta[1] / eta[0]))
+        change = float(np.log(eta[1][0] / eta[0][0]))
         own_sd = LOSS_OWN if test.recorded else TYPED_LOSS_OWN
-        sd = float(np.hypot(own_sd, LOSS_PART * change))
+        sd = float(np.linalg.norm([own_sd, LOSS_PART * change, eta[0][1], eta[1][1]]))
         known = all(key in values for values in losses)
         told = float(np.log(losses[1][key] / losses[0][key])) if known else 0.0
         found.append(Feature("level_loss", test.name, key, change, told, sd, lost=not known))

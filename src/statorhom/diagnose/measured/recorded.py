@@ -40,7 +40,7 @@ from statorhom.study.modal_table import MeasuredMode, ModalTable
 from statorhom.study.modal_tests import ModalTestKeys
 from statorhom.study.study import StudyFiles
 
-FOLDER, FORMAT = "recordings", 18  # a change of method makes what is kept stale
+FOLDER, FORMAT = "recordings", 19  # a change of method makes what is kept stale
 # A resonance of a loss factor of 8 % has others under its flanks: recordings of a known stator then miss frequencies
 # by 0.1 to 0.7 %, whatever the noise; at 5 % they hardly do.
 OVERLAP = 8.0

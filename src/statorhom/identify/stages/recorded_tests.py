@@ -30,7 +30,7 @@ from statorhom.study.modal_table import ModalTable, read_modal_table
 from statorhom.study.modal_tests import ModalTestKeys
 from statorhom.study.study import StudyFiles
 
-FORMAT = 3  # of what is kept: a change of method makes it stale
+FORMAT = 4  # of what is kept: a change of method makes it stale
 FOLDER = "recordings"
 _DAMAGED = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, InputFileError)
 
