@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from statorhom.diagnose.measured.recorded import _split, overlap_sd
+from statorhom.diagnose.measured.recorded import KNOWN, _somewhere, _split, overlap_sd
 
 FREQUENCY_HZ = 1500.0
 SQUARE = (2 * np.pi * FREQUENCY_HZ) ** 2
@@ -55,3 +55,17 @@ def test_broad_resonances_hide_others_and_sharp_ones_do_not() -> None:
     assert 1e-3 < overlap_sd(0.08) < 7e-3
     assert overlap_sd(0.01) < 1e-5
     assert overlap_sd(None) == 0.0
+
+
+def test_a_peak_that_may_be_anywhere_under_its_width_has_no_row() -> None:
+    bandwidth = 20.0
+    measured: Any = SimpleNamespace(
+        modes=[
+            SimpleNamespace(
+                mode=SimpleNamespace(frequency_sd_hz=part * KNOWN * bandwidth, bandwidth_hz=bandwidth)
+            )
+            for part in (0.01, 1.1, 0.9)
+        ]
+    )
+    assert _somewhere(measured, [0, 1, 2]) == {0, 2}
+    assert _somewhere(measured, [1]) == {1}  # all that there is

@@ -60,6 +60,7 @@ def led(
     )
     monkeypatch.setattr(leading, "beside_typical_materials", typical)
     monkeypatch.setattr(leading, "sought_thoroughly", thorough)
+    monkeypatch.setattr(leading, "leaning_fields", lambda *_: [])
     monkeypatch.setattr(leading, "in_other_valleys", lambda _, found, __: found)
     monkeypatch.setattr(leading, "with_repeated_null", lambda _, found, __: found)
     monkeypatch.setattr(leading, "single_effects", lambda fit, *_: next(e for b, e in steps if b.free is fit))

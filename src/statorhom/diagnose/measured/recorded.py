@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
@@ -44,6 +45,7 @@ FOLDER, FORMAT = "recordings", 19  # a change of method makes what is kept stale
 # A resonance of a loss factor of 8 % has others under its flanks: recordings of a known stator then miss frequencies
 # by 0.1 to 0.7 %, whatever the noise; at 5 % they hardly do.
 OVERLAP = 8.0
+KNOWN = 0.5  # of its bandwidth, that a mode's frequency has to be known to
 
 
 @dataclass(frozen=True)
@@ -129,7 +131,8 @@ def from_recording(measured: MeasuredModes, stage: int, name: str, support: str,
     doublets = distinct_doublets(measured)
     paired = {i for d in doublets for i in (d.lower, d.upper)}
     flat = is_flat_body(measured.extraction.points)
-    kept = set(distinct_modes(measured) if flat else strongest(measured.modes, paired))
+    distinct = set(distinct_modes(measured) if flat else strongest(measured.modes, paired))
+    kept = paired & distinct | _somewhere(measured, distinct)
     shifts = plane_shifts(measured)
     moved = {s.label: 1.0 + s.mean for s in shifts}
     for d in doublets:
@@ -159,6 +162,12 @@ def from_recording(measured: MeasuredModes, stage: int, name: str, support: str,
         shapes=_shapes(measured, sorted(kept)),
         points=body_points(measured, sorted(kept)),
     )
+
+
+def _somewhere(measured: MeasuredModes, numbers: Iterable[int]) -> set[int]:
+    """Those whose frequency is known: a peak that may be anywhere under its own width has no row, nor a partner."""
+    modes = {i: measured.modes[i].mode for i in numbers}
+    return {i for i, mode in modes.items() if mode.frequency_sd_hz < KNOWN * mode.bandwidth_hz} or set(modes)
 
 
 def _split(measured: MeasuredModes, d: DoubletPair) -> MeasuredSplit:

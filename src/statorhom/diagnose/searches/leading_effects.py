@@ -16,6 +16,7 @@ from statorhom.diagnose.located.scan import Scan, scan
 from statorhom.diagnose.searches.approach import Approach
 from statorhom.diagnose.searches.beside_typical import beside_typical_materials
 from statorhom.diagnose.searches.lacking_modes import lacks_modes
+from statorhom.diagnose.searches.leaning_fields import leaning_fields
 from statorhom.diagnose.searches.look_alikes import look_alikes
 from statorhom.diagnose.searches.lost_contact import with_lost_contact
 from statorhom.diagnose.searches.other_valleys import in_other_valleys
@@ -98,6 +99,7 @@ def leading_effects(
     if leading.base is not base and (found := beside_typical(leading)):
         leading = in_deeper_valleys(_with_more(leading, found), 1)
     leading = _with_more(leading, sought_thoroughly(leading.base.free, leading.found, candidates, counts))
+    leading = _with_more(leading, leaning_fields(leading.base.free, leading.found, candidates, counts))
     leading = _with_more(leading, look_alikes(leading.base.free, leading.found, candidates, counts))
     # what no signature beside the declared winding shows
     return _with_more(leading, with_lost_contact(leading.base.free, leading.found, candidates, counts))
