@@ -13,7 +13,7 @@ from statorhom.diagnose.evidence.decision import NEAR_RIVAL
 from statorhom.diagnose.fits.explanations import Explanation
 from statorhom.diagnose.fits.refit import refit
 from statorhom.diagnose.searches import other_places
-from statorhom.diagnose.searches.other_places import at_their_best_places
+from statorhom.diagnose.searches.other_places import AS_RIGHT_ONES, at_their_best_places
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.parameter import EffectParameter, angle, height
 
@@ -155,7 +155,18 @@ def test_a_near_rival_may_come_to_lead() -> None:
     assert at_their_best_places([lead, far], seed=0)[1].refit is far.refit
 
 
-def test_beside_recordings_everything_stays() -> None:
-    before = [explanation(Core(recorded=True))]
+def test_beside_recordings_what_leaves_as_little_as_right_names_do_stays() -> None:
+    before = [explanation(Core(recorded=True), part=RIGHT)]
+    assert before[0].adequacy_but_one > AS_RIGHT_ONES
     assert at_their_best_places(before, seed=0) == before
     assert at_their_best_places([], seed=0) == []
+
+
+def test_beside_recordings_what_leads_and_leaves_more_is_tried_elsewhere_and_no_rival() -> None:
+    trapped = explanation(Core(recorded=True))
+    assert trapped.adequacy_but_one < AS_RIGHT_ONES
+    lead, _ = at_their_best_places([trapped, trapped], seed=0)
+    assert part_of(lead) == pytest.approx(RIGHT, abs=1e-3)
+    lump = explanation(Core((STRIP,), recorded=True), size=-1.0, part=RIGHT)
+    near = replace(trapped, log_evidence=lump.log_evidence - 1.0)
+    assert at_their_best_places([lump, near], seed=0)[1].refit is near.refit
