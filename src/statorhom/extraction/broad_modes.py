@@ -19,9 +19,8 @@ FloatArray = npt.NDArray[np.float64]
 
 AROUND, LEAST = 10, 6  # modes on both sides that tell what is usual, and how few of them do
 USUAL = 3.0  # standard deviations of ln η
-OFF = (
-    0.5  # of what a mode is too broad by: what frequencies of such modes of known stacks are off by, at most
-)
+# of what a mode is too broad by: of 29 such modes of known recordings 24 are off by less, none by more than all of it
+OFF = 0.5
 BROAD, UNSURE = (
     1.3,
     0.04,
