@@ -21,10 +21,8 @@ AROUND, LEAST = 10, 6  # modes on both sides that tell what is usual, and how fe
 USUAL = 3.0  # standard deviations of ln η
 # of what a mode is too broad by: of 29 such modes of known recordings 24 are off by less, none by more than all of it
 OFF = 0.5
-BROAD, UNSURE = (
-    1.3,
-    0.04,
-)  # times the usual loss factor, and standard deviation over bandwidth, of what is no one mode
+# times the usual loss factor, and standard deviation over bandwidth, of what is no one mode
+BROAD, UNSURE = 1.3, 0.04
 TOLD = 0.1  # too broad by this part of the loss factor, a mode is remarked on
 
 
