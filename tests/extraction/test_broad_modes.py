@@ -69,6 +69,13 @@ def test_where_modes_differ_anyhow_a_broad_one_is_nothing_unusual() -> None:
     assert found == tuple(wound) and not said
 
 
+def test_a_broad_mode_with_nothing_near_it_is_one_mode(alike: list[ExtractedMode]) -> None:
+    """The first bending of a free beam on soft foam is six times as broad as the others, and alone."""
+    alone = mode(400.0, 6.0 * LOSS)
+    found, said = with_doubt([alone, *alike])
+    assert found[0] == alone and not said
+
+
 def test_few_modes_tell_nothing() -> None:
     few = recorded([LOSS] * 5 + [3 * LOSS])
     assert with_doubt(few) == (tuple(few), ())

@@ -18,6 +18,7 @@ from statorhom.extraction.extraction import ExtractedMode
 FloatArray = npt.NDArray[np.float64]
 
 AROUND, LEAST = 10, 6  # modes on both sides that tell what is usual, and how few of them do
+NEAR = 1.5  # times its frequency: a mode with few others nearer than this stands alone under its peak
 USUAL = 3.0  # standard deviations of ln η
 # of what a mode is too broad by: of 29 such modes of known recordings 24 are off by less, none by more than all of it
 OFF = 0.5
@@ -63,8 +64,9 @@ def _most_usual(modes: Sequence[ExtractedMode]) -> FloatArray:
     loss = np.array([mode.loss_factor for mode in modes])
     found = np.full(len(modes), np.inf)
     for i in range(len(modes)):
-        near = np.argsort(np.abs(place - place[i]), kind="stable")[1 : 1 + AROUND]
-        own = loss[near[loss[near] > 0]]
+        away = np.abs(place - place[i])
+        near = np.argsort(away, kind="stable")[1 : 1 + AROUND]
+        own = loss[near[(loss[near] > 0) & (away[near] < np.log(NEAR))]]
         if len(own) >= LEAST:
             logs = np.log(own)
             middle = float(np.median(logs))
