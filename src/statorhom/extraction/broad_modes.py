@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from statorhom.extraction.extraction import ExtractedMode
+from statorhom.recordings.estimation.pulses import noise_sd
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -70,7 +71,6 @@ def _most_usual(modes: Sequence[ExtractedMode]) -> FloatArray:
         if len(own) >= LEAST:
             logs = np.log(own)
             middle = float(np.median(logs))
-            # of a normal distribution, by the median of what they differ by: a few broad ones do not count
-            spread = 1.4826 * float(np.median(np.abs(logs - middle)))
-            found[i] = np.exp(middle + USUAL * spread)
+            # by the median of what they differ by: a few broad ones do not count, as pulses do not in a record
+            found[i] = np.exp(middle + USUAL * noise_sd(logs))
     return found

@@ -111,9 +111,10 @@ def level_features(
         eta = [mean_loss(row, own, key) for row, own in zip(rows, keys, strict=True)]
         if eta[0] is None or eta[1] is None or not all(losses):
             continue
-        change = float(np.log(eta[1][0] / eta[0][0]))
+        (low, low_sd), (high, high_sd) = eta[0], eta[1]
+        change = float(np.log(high / low))
         own_sd = LOSS_OWN if test.recorded else TYPED_LOSS_OWN
-        sd = float(np.linalg.norm([own_sd, LOSS_PART * change, eta[0][1], eta[1][1]]))
+        sd = float(np.linalg.norm([own_sd, LOSS_PART * change, low_sd, high_sd]))
         known = all(key in values for values in losses)
         told = float(np.log(losses[1][key] / losses[0][key])) if known else 0.0
         found.append(Feature("level_loss", test.name, key, change, told, sd, lost=not known))

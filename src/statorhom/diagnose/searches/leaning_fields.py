@@ -43,8 +43,9 @@ def leaning_fields(
     candidates : all effects.
     counts : effect → number of its candidates, over which its prior is spread.
     """
-    best = found[0] if found else nothing(base)
-    if not isinstance(base.hypothesis, Hypothesis) or nothing(base).adequacy > ADEQUATE:
+    none = nothing(base)
+    best = found[0] if found else none
+    if not isinstance(base.hypothesis, Hypothesis) or none.adequacy > ADEQUATE:
         return []
     tests = _leaning(best.refit)
     own = {stage.name for stage in base.hypothesis.study.stages if tests & {t.name for t in stage.tests}}
