@@ -70,9 +70,16 @@ class Harmonic:
         real, imaginary = self.real, self.imaginary
         return sp.csr_array(real.T @ (matrix @ real) + imaginary.T @ (matrix @ imaginary))
 
-    def expand(self, y: np.ndarray) -> np.ndarray:
-        """Complex displacements of the half pitch (3 n, …) of coordinates `y` (m, …)."""
-        return np.asarray(self.real @ y + 1j * (self.imaginary @ y))
+    def expand(self, y: np.ndarray, dofs: np.ndarray | None = None) -> np.ndarray:
+        """Complex displacements of the half pitch of coordinates `y` (m, …).
+
+        Parameters
+        ----------
+        y : coordinates.
+        dofs : numbers of some displacements, where not all 3 n are asked for.
+        """
+        real, imaginary = (a if dofs is None else a[dofs] for a in (self.real, self.imaginary))
+        return np.asarray(real @ y + 1j * (imaginary @ y))
 
 
 def harmonic_spaces(mesh: HalfPitchMesh, order: int) -> tuple[Harmonic, ...]:

@@ -69,7 +69,7 @@ def test_slopes_are_differences(few: JointBasis) -> None:
     low, high = (few.solve(wound(f), joint) for f in (1 - step, 1 + step))
     entries = hooke_coefficients(MATERIALS["winding"].hooke)
     for key, one in here.items():
-        slope = one.slope.reshape(-1, 10)[list(MATERIALS).index("winding"), :9] @ entries
+        slope = one.slope.vector.reshape(-1, 10)[list(MATERIALS).index("winding"), :9] @ entries
         assert slope == pytest.approx((high[key].log_f - low[key].log_f) / (2 * step), rel=0.02, abs=2e-4)
 
 

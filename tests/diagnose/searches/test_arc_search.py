@@ -57,6 +57,7 @@ class Search:
         self.followed: dict[float, list[np.ndarray]] = {}  # by the width of the valleys
         self.known: list[Sequence[np.ndarray]] = []  # by bases that were made in turn
         self.quick: list[bool] = []  # and whether mesh factors stayed what they were
+        self.least = 0.0  # objective below which nothing is left to explain
         monkeypatch.setattr(module, "replace", lambda h, **changes: h.within(changes))
         monkeypatch.setattr(module, "in_few_vectors", lambda *_: Hypothesis("few"))
         monkeypatch.setattr(module, "by_degrees", self.by_degrees)
@@ -66,6 +67,7 @@ class Search:
         monkeypatch.setattr(module, "in_its_own_model", self.knowing)
         monkeypatch.setattr(module, "with_neighbours", lambda _, points, __: points)
         monkeypatch.setattr(module, "in_few_vectors_near", self.near)
+        monkeypatch.setattr(module, "_leaves_nothing", lambda found: found.objective < self.least)
         monkeypatch.setattr(valleys_of, "refit_objective", self.objective)
 
     def knowing(
@@ -135,6 +137,13 @@ def test_the_best_winding_and_arc_of_all_that_are_tried_is_found(search: Search)
     # a start has mesh factors of its own; then they are those of what leads
     assert search.quick == [True, False, False]
     assert {z.tobytes() for z in rest[0]} <= {z.tobytes() for z in search.followed[NARROWING[0]][:most]}
+
+
+def test_what_leaves_nothing_to_explain_is_not_followed_again(search: Search) -> None:
+    search.least = 0.5
+    z = best_arc(start(), WINDING, 100.0, ANYWHERE)
+    assert z is not None and search.objective(Hypothesis(), z) < 0.5
+    assert [len(known) for known in search.known[1:]] == list(ANYWHERE.again[:1])
 
 
 @pytest.mark.usefixtures("search")

@@ -7,12 +7,13 @@ shapes apart. All faces of a half pitch weaken alike.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.linalg import eigh
 
 from statorhom.diagnose.bases.ring_basis import RingBasis, RingModes
+from statorhom.diagnose.contacts.arc_slopes import KnownSlope, Slope, mean_slope
 from statorhom.diagnose.contacts.joint_contact import WavesContact
 from statorhom.errors import SolverError
 from statorhom.model.affine import Materials
@@ -51,14 +52,14 @@ class Family:
         best = int(np.argmax(weight))
         return best if weight[best] >= LEAST and self.values[best] > 0 else None
 
-    def slope(self, number: int, materials: Materials) -> np.ndarray:
-        """d ln f of a mode by the Hooke entries and the density of all regions, one after the other."""
+    def slope(self, number: int, materials: Materials) -> Slope:
+        """d ln f of a mode by the materials."""
         total = np.zeros(10 * len(materials))
         for problem, start in self.starts.items():
             vectors = self.even.vectors[problem]
             x = vectors @ self.coordinates[start : start + vectors.shape[1], number]
             total += self.even.problems[problem].slope(x, float(self.values[number]), materials)
-        return total
+        return KnownSlope(total)
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,13 +71,13 @@ class JoinedMode:
     mode : with the contact the same all around.
     log_f : ln of the frequency (Hz) of the doublet's mean λ.
     split : complex relative split of λ.
-    slope : d ln f by the Hooke entries and the density of all regions, one after the other.
+    slope : d ln f by the materials.
     """
 
     mode: StatorMode
     log_f: float
     split: complex
-    slope: np.ndarray
+    slope: Slope
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +86,7 @@ class Weakened:
 
     families: tuple[Family, ...]
 
-    def response(self, members: Sequence[int], materials: Materials) -> tuple[float, complex, np.ndarray]:
+    def response(self, members: Sequence[int], materials: Materials) -> tuple[float, complex, Slope]:
         """ln f of the mean λ, relative split, and d ln f by the materials, of a mode of the even contact.
 
         Parameters
@@ -97,10 +98,10 @@ class Weakened:
         mean = float(np.mean(values))
         split = complex((values[0] - values[1]) / mean) if len(values) == 2 else 0j
         slopes = [
-            value / mean * family.slope(i, materials)
+            (value / mean, family.slope(i, materials))
             for value, (family, i) in zip(values, parts, strict=True)
         ]
-        return 0.5 * float(np.log(mean)) - float(np.log(2 * np.pi)), split, np.mean(slopes, axis=0)
+        return 0.5 * float(np.log(mean)) - float(np.log(2 * np.pi)), split, mean_slope(slopes)
 
     def members(self, mode: StatorMode) -> list[int | None]:
         """Of each family that a mode of the even contact has a shape in, the number of the mode that is most of it."""
@@ -166,7 +167,8 @@ def arc_change(joint: Joint, slots: int) -> np.ndarray:
 
 def _family(even: RingModes, numbers: tuple[int, ...], change: np.ndarray, top: float) -> Family:
     vectors = [even.vectors[n] for n in numbers]
-    K = _between(vectors, change) + np.diag(np.concatenate([even.values[n] for n in numbers]))
+    K = _between(vectors, change)
+    K[np.diag_indices_from(K)] += np.concatenate([even.values[n] for n in numbers])
     try:
         values, x = eigh((K + K.T) / 2, subset_by_value=(-np.inf, top))
     except np.linalg.LinAlgError:
@@ -188,8 +190,10 @@ def _between(vectors: Sequence[np.ndarray], matrix: np.ndarray) -> np.ndarray:
 def arc_groups(ring: RingBasis, pieces: tuple[Pieces, Pieces]) -> Iterator[ArcGroup]:
     """The problems of each axial parity, and the contact between them (`WavesContact`).
 
-    One after the other: what a group keeps takes a gigabyte where bases are large.
+    Their waves and pieces know the displacements alone that the contact acts on. One group after the other: what it
+    keeps takes a gigabyte where bases are large.
     """
+    dofs, local = touched(pieces)
     for axial in dict.fromkeys(p.space.axial for p in ring.problems):
         numbers = [n for n, p in enumerate(ring.problems) if p.space.axial == axial]
         own = [ring.problems[n] for n in numbers]
@@ -198,7 +202,7 @@ def arc_groups(ring: RingBasis, pieces: tuple[Pieces, Pieces]) -> Iterator[ArcGr
             for value in (lambda s: s.order, lambda s: s.parity == "odd", lambda s: s.parity == "even")
         )
         waves = Waves(
-            np.hstack([p.space.expand(p.basis) for p in own]),
+            np.hstack([p.space.expand(p.basis, dofs) for p in own]),
             order,
             np.flatnonzero(~odd),
             np.flatnonzero(~even),
@@ -206,5 +210,11 @@ def arc_groups(ring: RingBasis, pieces: tuple[Pieces, Pieces]) -> Iterator[ArcGr
         )
         cosine = tuple(n for n in numbers if ring.problems[n].space.parity != "odd")
         sine = tuple(n for n in numbers if ring.problems[n].space.parity != "even")
-        contact = WavesContact(waves, pieces)
+        contact = WavesContact(waves, local)
         yield ArcGroup(tuple(numbers), cosine, sine, contact, ring.highest_hz)
+
+
+def touched(pieces: tuple[Pieces, Pieces]) -> tuple[np.ndarray, tuple[Pieces, Pieces]]:
+    """Displacements (d,) that a contact acts on, both ways the same, and its pieces between these alone."""
+    dofs, normal = pieces[0].alone()
+    return dofs, (normal, replace(normal, matrices=pieces[1].matrices))

@@ -14,10 +14,12 @@ from functools import cached_property, partial
 import numpy as np
 
 from statorhom.diagnose.bases.ring_basis import RingBasis, RingModes, mark_of, ring_basis
+from statorhom.diagnose.contacts.arc_slopes import KnownSlope
 from statorhom.diagnose.contacts.joint_arc import ArcGroup, JoinedMode, Weakened, arc_groups
 from statorhom.diagnose.contacts.joint_born import born_modes, surface
 from statorhom.diagnose.contacts.joint_condensed import CondensedGroup, Sample, condensed
 from statorhom.diagnose.contacts.joint_fields import with_local_fields
+from statorhom.diagnose.contacts.joint_solution import ArcTraining
 from statorhom.diagnose.contacts.joint_training import with_arcs
 from statorhom.diagnose.measured.feature import SINGLE
 from statorhom.diagnose.processes.side_by_side import side_by_side
@@ -86,7 +88,9 @@ class JointBasis:
         keys = mode_keys(even.modes)
         if joint.arc is None or joint.ratio == 1.0:
             return {
-                key: JoinedMode(mode, float(np.log(mode.frequency_hz)), 0j, even.slope(mode, materials))
+                key: JoinedMode(
+                    mode, float(np.log(mode.frequency_hz)), 0j, KnownSlope(even.slope(mode, materials))
+                )
                 for key, mode in keys.items()
             }
         found: dict[ModeKey, JoinedMode] = {}
@@ -171,7 +175,7 @@ def joint_basis(
     orders: Sequence[int],
     *,
     may_differ: bool,
-    arcs: Sequence[tuple[Materials, Joint]] = (),
+    arcs: Sequence[ArcTraining] = (),
 ) -> JointBasis:
     """Bases of a joint.
 
@@ -183,8 +187,7 @@ def joint_basis(
     highest_hz : upper end of the band.
     orders : harmonics that are named.
     may_differ : whether the contact may be weaker over an arc.
-    arcs : around θ = 0, and the materials there, near which it is predicted as the mesh has it; others, and all
-        without, roughly.
+    arcs : near which it is predicted as the mesh has it; others, and all without, roughly.
     """
     apart = split(mesh, regions)
     pieces = (contact(apart, regions, 1.0, 0.0).pieces, contact(apart, regions, 0.0, 1.0).pieces)

@@ -9,14 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from scipy.linalg import block_diag, solve_triangular
 
 from statorhom.diagnose.bases.ring_basis import RingModes, RingProblem, material_slope
 from statorhom.diagnose.bases.small_pairs import small_pairs
-from statorhom.diagnose.contacts.joint_arc import ArcGroup, Family, Weakened, arc_change
+from statorhom.diagnose.contacts.arc_slopes import LateSlope, Slope
+from statorhom.diagnose.contacts.joint_arc import REACH, ArcGroup, Family, Weakened, arc_change
 from statorhom.model.affine import Materials, hooke_coefficients
 from statorhom.physics.action import Joint
 
@@ -51,9 +52,11 @@ class CondensedModes(Family):
     vectors: np.ndarray
     family: CondensedFamily
 
-    def slope(self, number: int, materials: Materials) -> np.ndarray:
+    def slope(self, number: int, materials: Materials) -> Slope:
         """As of all coordinates, but for what the few vectors leave out."""
-        return self.family.slope(self.vectors[:, number], float(self.values[number]), materials)
+        # of all modes it keeps this one
+        own = self.vectors[:, number].copy(), float(self.values[number])
+        return LateSlope(partial(self.family.slope, *own, materials))
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,12 +67,15 @@ class CondensedFamily:
     ----------
     problems : by number, whose coordinates these vectors are made of.
     vectors : (Σk, v) in them, one problem after the other.
-    halves : (2, 2 N, v²) contact of unit stiffness of every half pitch, normal and tangential.
+    halves : (2, N, v²) contact of unit stiffness of the two half pitches that lie equally far from θ = 0, the nearest
+        ones first; normal and tangential.
+    highest : λ up to which modes are known.
     """
 
     problems: dict[int, RingProblem]
     vectors: np.ndarray
     halves: np.ndarray
+    highest: float
 
     @property
     def regions(self) -> tuple[str, ...]:
@@ -81,6 +87,11 @@ class CondensedFamily:
         """The vectors (k, v) in every problem."""
         ends = np.cumsum([p.basis.shape[1] for p in self.problems.values()])
         return tuple(np.split(self.vectors, ends[:-1]))
+
+    @cached_property
+    def _intact(self) -> np.ndarray:
+        """(2, v²) contact of all half pitches."""
+        return np.asarray(self.halves.sum(axis=1))
 
     @cached_property
     def _stiffness(self) -> np.ndarray:
@@ -110,7 +121,7 @@ class CondensedFamily:
         Parameters
         ----------
         even : modes of the even contact there.
-        change : (2 N,) of every half pitch's contact (`arc_change`).
+        change : (N,) of the contact of the half pitches, the nearest ones to θ = 0 first.
 
         Raises
         ------
@@ -119,10 +130,14 @@ class CondensedFamily:
         """
         coefficients = np.concatenate([hooke_coefficients(materials[r].hooke) for r in self.regions])
         density = np.array([materials[r].density for r in self.regions])
-        contact = np.outer((joint.normal, joint.tangential), 1.0 + change)
-        K = coefficients @ self._stiffness + np.tensordot(contact, self.halves)
+        reach = len(np.trim_zeros(change, "b"))  # beyond that the contact is intact
+        contact = (w + change[:reach] @ own[:reach] for w, own in zip(self._intact, self.halves, strict=True))
+        normal, tangential = contact
+        K = coefficients @ self._stiffness + joint.normal * normal + joint.tangential * tangential
         shape = (self.vectors.shape[1],) * 2
         values, x = small_pairs(K.reshape(shape), (density @ self._mass).reshape(shape))
+        seen = int(np.searchsorted(values, self.highest))
+        values, x = values[:seen], x[:, :seen]
         starts, first, rows = {}, 0, []
         for n, part, image in zip(self.problems, self._parts, self._images, strict=True):
             starts[n], first = first, first + even.vectors[n].shape[1]
@@ -149,7 +164,7 @@ class CondensedGroup:
 
     def weakened(self, even: RingModes, joint: Joint, materials: Materials) -> Weakened:
         """Modes with a weaker arc around θ = 0."""
-        change = arc_change(joint, self.slots)
+        change = arc_change(joint, self.slots)[_nearest_first(self.slots)[0]]
         return Weakened(tuple(f.solved(even, materials, joint, change) for f in self.families))
 
 
@@ -170,8 +185,19 @@ def condensed(
         own.append({n: problems[n] for n in numbers})
         vectors.append(_vectors(own[-1], number, samples, top, most))
     pieces = [group.contact.halves(piece, vectors) for piece in range(2)]
-    families = zip(own, vectors, *pieces, strict=True)
-    return CondensedGroup(group.slots, tuple(CondensedFamily(p, V, np.array(h)) for p, V, *h in families))
+    here, there = _nearest_first(group.slots)
+    families = tuple(
+        CondensedFamily(p, V, np.array([h[here] + h[there] for h in halves]), REACH * top)
+        for p, V, *halves in zip(own, vectors, *pieces, strict=True)
+    )
+    return CondensedGroup(group.slots, families)
+
+
+def _nearest_first(slots: int) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers (N,) of the half pitches by how far from θ = 0 they lie, and of their mirror images (`arc_change`)."""
+    pitch = np.arange(slots)
+    order = np.argsort(np.minimum(pitch + 0.25, slots - pitch - 0.25))
+    return 2 * order, 2 * (-order % slots) + 1
 
 
 def _vectors(

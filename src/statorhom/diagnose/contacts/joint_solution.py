@@ -9,25 +9,24 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.linalg import eigh
-from scipy.sparse.linalg import SuperLU, splu
 
 from statorhom.diagnose.bases.ring_basis import RingBasis, RingModes, RingProblem
-from statorhom.diagnose.contacts.joint_arc import Family, arc_change, arc_groups
+from statorhom.diagnose.contacts.joint_arc import Family, arc_change, arc_groups, touched
+from statorhom.diagnose.contacts.weighed_vectors import WeighedProblem, WeighedVectors, together
 from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.model.affine import Materials
 from statorhom.model.broken.pieces import Pieces
-from statorhom.model.harmonic import Harmonic
 from statorhom.physics.action import Joint
 
-ROUNDS = 5
+# exact: to a few ten-thousandths of a frequency; rough: enough to tell arcs apart, in half the time
+EXACT, ROUGH = 5, 2
 REACH = 1.2  # how much higher than the band's end the solutions' λ are followed
 RIGID = 1e-4  # part of the band's highest λ below which a body is rigid
 WEAK = 3e10  # N/m³: contact of parts that hardly touch
-LEAST = 1e-8  # part of a solution's strain energy that a vector must carry
 SOLUTIONS, ANSWERS = (
     50,
     25,
@@ -40,39 +39,19 @@ Unit = tuple[sp.csr_array, sp.csr_array]
 Parts = list[np.ndarray]  # per problem (m, t): of modes of unit strain energy
 
 
-@dataclass(frozen=True, eq=False)
-class _Problem:
-    """One harmonic of the mesh.
+class ArcTraining(NamedTuple):
+    """An arc around θ = 0 that bases know.
 
     Parameters
     ----------
-    space : its coordinates.
-    K, M : with the contact intact.
-    solvers : of K + σM with the contact intact, and hardly there.
-    weak : K + σM of the latter.
+    materials : of the regions.
+    joint : the contact and the arc.
+    rounds : of its solution, `EXACT` or `ROUGH`.
     """
 
-    space: Harmonic
-    K: sp.csr_array
-    M: sp.csr_array
-    solvers: tuple[SuperLU, SuperLU]
-    weak: sp.csr_array
-
-    def ritz(self, basis: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """λ and vectors (m, k) of unit mass in a basis."""
-        K, M = basis.T @ (self.K @ basis), basis.T @ (self.M @ basis)
-        values, x = eigh((K + K.T) / 2, (M + M.T) / 2)
-        return values, basis @ x
-
-    def joined(self, basis: np.ndarray, more: np.ndarray, most: int) -> np.ndarray:
-        """A basis (m, k) with the directions of further vectors that carry most energy of what it lacks."""
-        if basis.shape[1]:
-            for _ in range(2):
-                heavy = self.weak @ basis
-                more = more - basis @ np.linalg.solve(basis.T @ heavy, heavy.T @ more)
-        values, turn = np.linalg.eigh(more.T @ (self.weak @ more))
-        chosen = [i for i in np.argsort(-values)[:most] if values[i] > LEAST]
-        return np.hstack([basis, more @ (turn[:, chosen] / np.sqrt(values[chosen]))])
+    materials: Materials
+    joint: Joint
+    rounds: int = EXACT
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +81,7 @@ class Arcs:
     @cached_property
     def touched(self) -> np.ndarray:
         """Displacements that the contact acts on."""
-        return np.unique(self.pieces[0].dofs)
+        return touched(self.pieces)[0]
 
     @cached_property
     def intact(self) -> sp.csr_array:
@@ -114,73 +93,70 @@ class Arcs:
         return sp.csr_array(self.usual.normal * self.unit[0] + self.usual.tangential * self.unit[1])
 
     @cached_property
-    def problems(self) -> tuple[_Problem, ...]:
+    def problems(self) -> tuple[WeighedProblem, ...]:
         """All harmonics."""
         model = self.ring.model
         K, M = model.stiffness_matrix(self.materials), model.mass_matrix(self.materials)
-        loose = WEAK * (self.unit[0] + self.unit[1])
-        found = []
-        for space in (p.space for p in self.ring.problems):
-            bonded, weak, mass = (
-                sp.csr_array(space.copies * space.project(sp.csr_array(m)))
-                for m in (K + self._bond, K + loose, M)
-            )
-            shifted = [sp.csr_array(k + self.top * mass) for k in (bonded, weak)]
-            solvers = (splu(sp.csc_matrix(shifted[0])), splu(sp.csc_matrix(shifted[1])))
-            found.append(_Problem(space, bonded, mass, solvers, shifted[1]))
-        return tuple(found)
+        loose = sp.csr_array(WEAK * (self.unit[0] + self.unit[1]))
+        matrices = sp.csr_array(K + loose), M, sp.csr_array(self._bond - loose), self.top
+        return tuple(WeighedProblem.of(p.space, *matrices) for p in self.ring.problems)
 
-    def parts(self, trainings: Sequence[Joint]) -> Parts:
-        """Of all trainings' modes, per problem."""
-        _ = self.problems, self.touched, self.intact  # made once, before processes part
+    def parts(self, trainings: Sequence[ArcTraining]) -> Parts:
+        """Of the modes of all arcs, per problem; their materials are these."""
+        _ = self.problems, self.plain, self.touched, self.intact  # made once, before processes part
         own = side_by_side(self._solved, trainings)
         return [np.hstack(parts) for parts in zip(*own, strict=True)]
 
-    def _solved(self, joint: Joint) -> Parts:
+    @cached_property
+    def plain(self) -> tuple[WeighedVectors, ...]:
+        """The bases that all arcs begin with."""
+        own = zip(self.problems, self.ring.problems, strict=True)
+        return tuple(problem.of_unit_energies(p.basis) for problem, p in own)
+
+    def _solved(self, training: ArcTraining) -> Parts:
         """Modes of one arc."""
-        plain = [b.basis for b in self.ring.problems]
-        bases, before = plain, [np.zeros((p.space.size, 0)) for p in self.problems]
-        for _ in range(ROUNDS):
+        joint = training.joint
+        bases, before = self.plain, [p.weighed(np.zeros((p.space.size, 0))) for p in self.problems]
+        for _ in range(training.rounds):
             parts, forces = self._modes(joint, bases)
             # the last two solutions and their answers: the step that led here is not undone
-            bases = [
-                p.joined(
-                    p.joined(b, np.hstack([y, z]), SOLUTIONS),
-                    np.hstack([s.solve(f) for s in p.solvers]),
-                    ANSWERS,
-                )
-                for p, b, y, z, f in zip(self.problems, plain, parts, before, forces, strict=True)
-            ]
+            bases = tuple(
+                p.joined(p.joined(b, together([y, z]), SOLUTIONS), p.answers(f), ANSWERS)
+                for p, b, y, z, f in zip(self.problems, self.plain, parts, before, forces, strict=True)
+            )
             before = parts
-        return self._modes(joint, bases)[0]
+        return [y.own for y in self._modes(joint, bases)[0]]
 
-    def _modes(self, joint: Joint, bases: Parts) -> tuple[Parts, Parts]:
+    def _modes(
+        self, joint: Joint, bases: Sequence[WeighedVectors]
+    ) -> tuple[list[WeighedVectors], list[np.ndarray]]:
         """Parts and residual forces of one arc's modes in some bases, per problem."""
         pairs = [p.ritz(b) for p, b in zip(self.problems, bases, strict=True)]
         values, vectors = [v for v, _ in pairs], [x for _, x in pairs]
         problems = tuple(
-            RingProblem(p.space, x, {}, {}, np.zeros((0, 0)))
+            RingProblem(p.space, x.own, {}, {}, np.zeros((0, 0)))
             for p, x in zip(self.problems, vectors, strict=True)
         )
         even = RingModes((), tuple(values), tuple(np.eye(len(v)) for v in values), problems)
-        parts: list[list[np.ndarray]] = [[] for _ in problems]
+        parts: list[list[WeighedVectors]] = [[] for _ in problems]
         forces: list[list[np.ndarray]] = [[] for _ in problems]
         for group in arc_groups(replace(self.ring, problems=problems), self.pieces):
             for sine, family in enumerate(group.weakened(even, joint).families):
                 chosen, own = self._in_band(family, vectors)
-                lost = self._lost(joint, own, bool(sine))
+                lost = self._lost(joint, {n: y.own for n, y in own.items()}, bool(sine))
                 for n, y in own.items():
-                    problem = self.problems[n]
                     parts[n].append(y)
-                    forces[n].append(problem.K @ y - problem.M @ y * chosen + lost[n])
-        return [np.hstack(p) for p in parts], [np.hstack(f) for f in forces]
+                    forces[n].append(self.problems[n].stiffness(y) - y.mass * chosen + lost[n])
+        return [together(p) for p in parts], [np.hstack(f) for f in forces]
 
-    def _in_band(self, family: Family, vectors: Parts) -> tuple[np.ndarray, dict[int, np.ndarray]]:
-        """λ of a family's elastic modes, and their coordinates (m, t) in every problem."""
+    def _in_band(
+        self, family: Family, vectors: Sequence[WeighedVectors]
+    ) -> tuple[np.ndarray, dict[int, WeighedVectors]]:
+        """λ of a family's elastic modes, and what of them is in every problem."""
         used = (family.values <= REACH * self.top) & (family.values > RIGID * self.top)
         values = family.values[used]
         own = {
-            n: vectors[n] @ family.coordinates[start : start + vectors[n].shape[1], used] / np.sqrt(values)
+            n: vectors[n] @ (family.coordinates[start : start + len(vectors[n]), used] / np.sqrt(values))
             for n, start in family.starts.items()
         }
         return values, own
@@ -204,7 +180,7 @@ class Arcs:
             [np.exp(2j * np.pi / slots * s.order * np.arange(slots)) for s in spaces.values()], axis=1
         )
         turned = -1j * phases if sine else phases
-        local = np.stack([spaces[n].expand(y)[self.touched] for n, y in motions.items()])
+        local = np.stack([spaces[n].expand(y, self.touched) for n, y in motions.items()])
         straight, mirrored = (np.tensordot(turned, u, axes=1).real for u in (local, np.conj(local)))
         change = arc_change(joint, slots)
         pulled, pushed = (

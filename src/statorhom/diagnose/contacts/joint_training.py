@@ -14,7 +14,7 @@ import scipy.sparse as sp
 
 from statorhom.diagnose.bases.ring_basis import RingBasis, affine_terms, grown, mark_of
 from statorhom.diagnose.contacts.joint_fields import unsolved, with_local_fields
-from statorhom.diagnose.contacts.joint_solution import PARTS, Arcs, Parts
+from statorhom.diagnose.contacts.joint_solution import EXACT, PARTS, Arcs, ArcTraining, Parts
 from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.model.affine import Materials
 from statorhom.model.broken.pieces import Pieces
@@ -31,35 +31,40 @@ class KnownArc(NamedTuple):
     ----------
     width_rad, ratio : of the contact there to that elsewhere.
     materials : of the regions; None where they are the reference's.
+    rounds : of its solution, `EXACT` or `ROUGH`.
     """
 
     width_rad: float
     ratio: float
     materials: Materials | None = None
+    rounds: int = EXACT
+
+    def of(self, joint: Joint, reference: Materials) -> ArcTraining:
+        """It in a joint."""
+        own = replace(joint, arc=(0.0, self.width_rad), ratio=self.ratio)
+        return ArcTraining(self.materials or reference, own, self.rounds)
 
 
-def with_arcs(
-    ring: RingBasis, pieces: tuple[Pieces, Pieces], trainings: Sequence[tuple[Materials, Joint]]
-) -> RingBasis:
+def with_arcs(ring: RingBasis, pieces: tuple[Pieces, Pieces], trainings: Sequence[ArcTraining]) -> RingBasis:
     """The bases with what arcs like some need, and the harmonics that these bring in.
 
     Parameters
     ----------
     ring : on a split mesh, its modes at several even contacts.
     pieces : of the contact, normal and tangential, per unit stiffness (m²).
-    trainings : materials, the first ones the ring's, and arcs around θ = 0, all in the same intact contact.
+    trainings : arcs, all in the same intact contact; the first one's materials are the ring's.
     """
     unit = pieces[0].matrix(np.ones(len(pieces[0]))), pieces[1].matrix(np.ones(len(pieces[1])))
     known = {p.space.kind: p for p in ring.problems}
     profile, terms = radial_profile(ring.model.mesh), affine_terms(ring.model)
-    begun = with_local_fields(ring, trainings[0][0], sp.csr_array(unit[0] + unit[1]))
+    begun = with_local_fields(ring, trainings[0].materials, sp.csr_array(unit[0] + unit[1]))
     windings = _by_materials(trainings)
-    first = Arcs(begun, pieces, unit, windings[0][0], trainings[0][1])
+    first = Arcs(begun, pieces, unit, trainings[0].materials, trainings[0].joint)
 
     def parts_of(number: int) -> Parts:
         # factors are large: those of one winding are gone before those of the next are made
-        materials, joints = windings[number]
-        return (replace(first, materials=materials) if number else first).parts(joints)
+        own = windings[number]
+        return (replace(first, materials=own[0].materials) if number else first).parts(own)
 
     # this process takes the first ones, whose energy weighs all others' parts
     solved = side_by_side(parts_of, range(len(windings)), here=(0,))
@@ -67,14 +72,15 @@ def with_arcs(
     problems = []
     for own, *parts in zip(first.problems, *solved, strict=True):
         old = known.get(own.space.kind, unsolved(own.space))
-        more = own.joined(old.basis, np.hstack(parts), most)[:, old.basis.shape[1] :]
+        basis = own.of_unit_energies(old.basis)
+        more = own.joined(basis, own.weighed(np.hstack(parts)), most).own[:, len(basis) :]
         problems.append(grown(old, more, terms, profile))
     return replace(ring, problems=tuple(problems))
 
 
-def _by_materials(trainings: Sequence[tuple[Materials, Joint]]) -> list[tuple[Materials, list[Joint]]]:
+def _by_materials(trainings: Sequence[ArcTraining]) -> list[list[ArcTraining]]:
     """The arcs of the same materials together: what is solved there, is solved once."""
-    found: dict[bytes, tuple[Materials, list[Joint]]] = {}
-    for materials, joint in trainings:
-        found.setdefault(mark_of(materials), (materials, []))[1].append(joint)
+    found: dict[bytes, list[ArcTraining]] = {}
+    for training in trainings:
+        found.setdefault(mark_of(training.materials), []).append(training)
     return list(found.values())

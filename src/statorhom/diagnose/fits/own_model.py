@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from statorhom.diagnose.contacts.joint_solution import ROUGH
 from statorhom.diagnose.contacts.joint_training import KnownArc
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.new_step import SNAPSHOTS
@@ -45,7 +46,7 @@ def in_its_own_model(
     ----------
     hypothesis, z : what, and where.
     quick : whether the old mesh factors do, and the local fields that a basis holds of any such effects.
-    elsewhere : other coordinates, of which the contact is solved too where it is lost over an arc.
+    elsewhere : other coordinates, of which the contact is solved too where it is lost over an arc, roughly.
     around : times an effect's own arc, at which its contact is solved.
 
     Raises
@@ -133,4 +134,5 @@ def _arcs_elsewhere(
     """Of other coordinates, with the materials there; none where no stator has these."""
     for z in points:
         for materials in _possible(hypothesis, stage, [z]):
-            yield from (arc._replace(materials=materials) for arc in _arcs(hypothesis.actions(z), ITSELF))
+            arcs = _arcs(hypothesis.actions(z), ITSELF)
+            yield from (arc._replace(materials=materials, rounds=ROUGH) for arc in arcs)

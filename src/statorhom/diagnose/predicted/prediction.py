@@ -9,6 +9,7 @@ from math import log
 import numpy as np
 
 from statorhom.diagnose.bases.ring_basis import mark_of
+from statorhom.diagnose.contacts.arc_slopes import Slope
 from statorhom.diagnose.predicted.followed_modes import Names, named
 from statorhom.diagnose.stages.broken_response import Response, responses
 from statorhom.diagnose.stages.dimension_response import dimension_shift
@@ -36,7 +37,7 @@ class PredictedMode(NamedByMode):
     log_f : ln of its frequency (Hz), mesh factor and shifts included.
     split : complex relative split of λ by the hypothesis, without scatter.
     shared : relative standard deviation that one unit of the stage's mesh coordinate stands for.
-    slope : d ln f by the materials (`material_vector`) where it is not the bonded stator's, else None.
+    slope : d ln f by the entries of `material_vector` where it is not the bonded stator's, else None.
     shares : source of a material, or "joint" → share of the strain energy; empty unless damping is predicted.
     friction : what slipping adds to the loss factor.
     scattered : relative split by a unit of the scatter of its order.
@@ -53,7 +54,7 @@ class PredictedMode(NamedByMode):
     log_f: float
     split: complex
     shared: float
-    slope: np.ndarray | None = None
+    slope: Slope | None = None
     shares: Mapping[str, float] = field(default_factory=dict)
     friction: float = 0.0
     scattered: float = 1.0
@@ -126,7 +127,7 @@ def slopes_by_materials(
 ) -> dict[ModeKey, np.ndarray]:
     """d ln f of predicted modes by the entries of `material_vector`."""
     bonded = {key: mode.mode.place for key, mode in modes.items() if mode.slope is None}
-    own = {key: mode.slope for key, mode in modes.items() if mode.slope is not None}
+    own = {key: mode.slope.vector for key, mode in modes.items() if mode.slope is not None}
     return {**stage.slopes(materials, bonded), **own}
 
 
@@ -231,7 +232,7 @@ class _Symmetric:
     mode: StatorMode
     log_f: float
     split: complex = 0j
-    slope: np.ndarray | None = None
+    slope: Slope | None = None
 
 
 def _base(

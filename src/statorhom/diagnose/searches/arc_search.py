@@ -17,7 +17,16 @@ from typing import TypeVar
 import numpy as np
 from scipy.stats import qmc
 
-from statorhom.diagnose.fits.explanations import COARSE, NARROWING, by_degrees, in_valleys, narrowed, refitted
+from statorhom.diagnose.fits.explanations import (
+    COARSE,
+    NARROWING,
+    WELL,
+    by_degrees,
+    explained,
+    in_valleys,
+    narrowed,
+    refitted,
+)
 from statorhom.diagnose.fits.few_vectors import in_few_vectors, in_few_vectors_near, with_neighbours
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.own_model import ITSELF, in_its_own_model
@@ -113,19 +122,29 @@ def best_arc(start: Start, winding: Sequence[int], worth: float, reach: Reach) -
     # of what is found points alone are kept: each one's bases take gigabytes
     points = [r.z for r in _wide_optima(start, winding, reach) if r.objective < worth + FAR_BEHIND]
     for count in reach.again if points else ():
-        points = _followed_again(start, winding, points[:count], reach.vectors)
+        points, is_right = _followed_again(start, winding, points[:count], reach.vectors)
+        if is_right:
+            break
     return points[0] if points else None
 
 
 def _followed_again(
     start: Start, winding: Sequence[int], points: Sequence[np.ndarray], vectors: int
-) -> list[np.ndarray]:
-    """What some points, the best first, lead to in bases that know them all; the best first."""
+) -> tuple[list[np.ndarray], bool]:
+    """What some points, the best first, lead to in bases that know them all; the best first.
+
+    And whether that leaves nothing to explain.
+    """
     best, *others = points
     # mesh factors of a typical winding lead some of the right ones to a fifth of their shear
     own = in_its_own_model(start.hypothesis, best, around=ITSELF, elsewhere=others)
     few = in_few_vectors(own, with_neighbours(own, points, varied(own, winding)), vectors)
-    return [r.z for r in _optima(partial(_followed, few), points, few)] or list(points)
+    found = _optima(partial(_followed, few), points, few)
+    return [r.z for r in found] or list(points), bool(found) and _leaves_nothing(found[0])
+
+
+def _leaves_nothing(found: Refit) -> bool:
+    return explained(found, {}).adequacy_of_all > WELL
 
 
 def _wide_optima(start: Start, winding: Sequence[int], reach: Reach) -> list[Refit]:

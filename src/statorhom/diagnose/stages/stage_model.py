@@ -182,10 +182,7 @@ class StageModel:
 
     def _joined(self, joint: Joint) -> JointBasis:
         differs = joint.arc is not None
-        arcs = [
-            (m or self.reference, replace(joint, arc=(0.0, width), ratio=ratio))
-            for width, ratio, m in (self.arcs if differs else ())
-        ]
+        arcs = [arc.of(joint, self.reference) for arc in (self.arcs if differs else ())]
         return joint_basis(
             self.model.mesh,
             self._used(joint),
