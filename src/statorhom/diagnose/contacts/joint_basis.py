@@ -113,19 +113,22 @@ class JointBasis:
 
     def condensed(self, samples: Sequence[tuple[Materials, Joint]], most: int) -> JointBasis:
         """The same in the few vectors that the modes at some materials and arcs span; nearly right between them."""
-        top = (2 * np.pi * self.ring.highest_hz) ** 2
-        solved = side_by_side(self._weakened_groups, samples, self.ring.problems)
-        few = []
-        for group, weakened in zip(self.groups, zip(*solved, strict=True), strict=True):
-            own = [Sample(materials, w) for (materials, _), w in zip(samples, weakened, strict=True)]
-            few.append(condensed(group, self.ring.problems, own, top, most))
+        solved = side_by_side(self._sampled, samples, self.ring.problems)
+        own = zip(self.groups, zip(*solved, strict=True), strict=True)
+        few = [condensed(group, self.ring.problems, found, self._top, most) for group, found in own]
         return JointBasis(self.ring, self.pieces, self.springs, tuple(few))
 
-    def _weakened_groups(self, sample: tuple[Materials, Joint]) -> list[Weakened]:
-        materials, joint = sample
+    @property
+    def _top(self) -> float:
+        """λ at the band's end."""
+        return (2 * np.pi * self.ring.highest_hz) ** 2
+
+    def _sampled(self, at: tuple[Materials, Joint]) -> list[Sample]:
+        """Modes of all groups."""
+        materials, joint = at
         with one_blas_thread():
             even = self._even(materials, joint)
-            return [group.weakened(even, joint) for group in self.groups]
+            return [Sample.of(materials, g.weakened(even, joint), self._top) for g in self.groups]
 
     def _named(
         self, weakened: Weakened, keys: Mapping[ModeKey, StatorMode], place: int, materials: Materials

@@ -12,12 +12,13 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 
 import numpy as np
-from scipy.linalg import block_diag, solve_triangular
+from scipy.linalg import solve_triangular
 
 from statorhom.diagnose.bases.ring_basis import RingModes, RingProblem, material_slope
 from statorhom.diagnose.bases.small_pairs import small_pairs
 from statorhom.diagnose.contacts.arc_slopes import LateSlope, Slope
 from statorhom.diagnose.contacts.joint_arc import REACH, ArcGroup, Family, Weakened, arc_change
+from statorhom.diagnose.contacts.leading_directions import leading_directions
 from statorhom.model.affine import Materials, hooke_coefficients
 from statorhom.physics.action import Joint
 
@@ -32,11 +33,29 @@ class Sample:
     Parameters
     ----------
     materials : of all regions.
-    weakened : the modes.
+    shapes : (Σk, m) of cosine and of sine shapes, of unit energy, and rigid bodies, which have none, of unit motion.
     """
 
     materials: Materials
-    weakened: Weakened
+    shapes: tuple[np.ndarray, ...]
+
+    @classmethod
+    def of(cls, materials: Materials, weakened: Weakened, top: float) -> Sample:
+        """What of the modes is kept: they are many, and the modes of the even contact are large.
+
+        Parameters
+        ----------
+        top : λ at the band's end.
+        """
+        return cls(materials, tuple(_of_unit_energy(family, top) for family in weakened.families))
+
+
+def _of_unit_energy(family: Family, top: float) -> np.ndarray:
+    vectors = [family.even.vectors[n] for n in family.starts]
+    own = np.split(family.coordinates, list(family.starts.values())[1:])
+    shapes = np.vstack([v @ c for v, c in zip(vectors, own, strict=True)])
+    rigid = np.where(family.values <= RIGID * top, top, 0.0)
+    return np.asarray(shapes / np.sqrt(np.maximum(family.values, 0.0) + rigid))
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,10 +199,8 @@ def condensed(
     top : λ at the band's end.
     most : vectors of one family.
     """
-    vectors, own = [], []
-    for number, numbers in enumerate((group.cosine, group.sine)):
-        own.append({n: problems[n] for n in numbers})
-        vectors.append(_vectors(own[-1], number, samples, top, most))
+    own = [{n: problems[n] for n in numbers} for numbers in (group.cosine, group.sine)]
+    vectors = [_vectors(list(p.values()), number, samples, top, most) for number, p in enumerate(own)]
     pieces = [group.contact.halves(piece, vectors) for piece in range(2)]
     here, there = _nearest_first(group.slots)
     families = tuple(
@@ -201,19 +218,21 @@ def _nearest_first(slots: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _vectors(
-    problems: dict[int, RingProblem], number: int, samples: Sequence[Sample], top: float, most: int
+    problems: Sequence[RingProblem], number: int, samples: Sequence[Sample], top: float, most: int
 ) -> np.ndarray:
     """(Σk, v) directions in which most of the samples' energy lies, of unit energy in their mean."""
-    found, energy = [], np.zeros(())
-    for sample in samples:
-        family = sample.weakened.families[number]
-        shapes = block_diag(*[family.even.vectors[n] for n in problems]) @ family.coordinates
-        # of unit energy, and rigid bodies, which have none, of unit motion
-        rigid = np.where(family.values <= RIGID * top, top, 0.0)
-        found.append(shapes / np.sqrt(np.maximum(family.values, 0.0) + rigid))
-        pairs = [p.matrices(sample.materials) for p in problems.values()]
-        energy = energy + block_diag(*[K + top * M for K, M in pairs]) / len(samples)
-    root = np.linalg.cholesky(energy)
-    left, sizes, _ = np.linalg.svd(root.T @ np.hstack(found), full_matrices=False)
-    count = min(most, int(np.count_nonzero(sizes > LEAST * sizes[0])))
-    return np.asarray(solve_triangular(root.T, left[:, :count]))
+    roots = [np.linalg.cholesky(_mean_energy(p, samples, top)) for p in problems]
+    ends = np.cumsum([len(r) for r in roots])[:-1]
+
+    def weighed(shapes: np.ndarray) -> np.ndarray:
+        return np.vstack([r.T @ part for r, part in zip(roots, np.split(shapes, ends), strict=True)])
+
+    left, sizes = leading_directions([weighed(s.shapes[number]) for s in samples], most)
+    chosen = left[:, sizes > LEAST * sizes[0]]
+    parts = zip(roots, np.split(chosen, ends), strict=True)
+    return np.vstack([solve_triangular(r.T, part) for r, part in parts])
+
+
+def _mean_energy(problem: RingProblem, samples: Sequence[Sample], top: float) -> np.ndarray:
+    pairs = (problem.matrices(s.materials) for s in samples)
+    return np.asarray(sum(K + top * M for K, M in pairs) / len(samples))
