@@ -60,9 +60,9 @@ def free_features(
     discrepancy : relative standard deviation that is added to all frequencies.
     """
     found: list[Feature] = []
-    by_key = {
-        key: [mode for mode, k in zip(modes, keys, strict=True) if k == key] for key in dict.fromkeys(keys)
-    }
+    by_key: dict[ModeKey | None, list[MeasuredMode]] = {}
+    for row, key in zip(modes, keys, strict=True):
+        by_key.setdefault(key, []).append(row)
     typical = _typical_split(test, [rows for key, rows in by_key.items() if key is not None])
     for key, rows in by_key.items():
         if key is None:
@@ -92,7 +92,8 @@ def _called_alike(
     thirds = [
         third_line(lost, row, mates, predicted[key], sd_and_least(row, own_sd(error, key), discrepancy))
         for key, mates in by_key.items()
-        if key is not None and key in predicted
+        # most modes have no third line, and there are many
+        if key is not None and key in predicted and predicted[key].lines
     ]
     return min([lost, *thirds], key=lambda f: cost_of([f]))
 
