@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -16,7 +16,7 @@ import scipy.sparse as sp
 
 from statorhom.diagnose.bases.ring_basis import RingBasis, RingModes, RingProblem
 from statorhom.diagnose.contacts.joint_arc import Family, arc_change, arc_groups, touched
-from statorhom.diagnose.contacts.weighed_vectors import WeighedProblem, WeighedVectors, together
+from statorhom.diagnose.contacts.weighed_vectors import Factors, WeighedProblem, WeighedVectors, together
 from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.model.affine import Materials
 from statorhom.model.broken.pieces import Pieces
@@ -104,7 +104,9 @@ class Arcs:
     def parts(self, trainings: Sequence[ArcTraining]) -> Parts:
         """Of the modes of all arcs, per problem; their materials are these."""
         _ = self.problems, self.plain, self.touched, self.intact  # made once, before processes part
-        own = side_by_side(self._solved, trainings)
+        # gigabytes, that are gone before another winding's are made
+        factors = [p.factored() for p in self.problems]
+        own = side_by_side(partial(self._solved, factors), trainings)
         return [np.hstack(parts) for parts in zip(*own, strict=True)]
 
     @cached_property
@@ -113,7 +115,7 @@ class Arcs:
         own = zip(self.problems, self.ring.problems, strict=True)
         return tuple(problem.of_unit_energies(p.basis) for problem, p in own)
 
-    def _solved(self, training: ArcTraining) -> Parts:
+    def _solved(self, factors: Sequence[Factors], training: ArcTraining) -> Parts:
         """Modes of one arc."""
         joint = training.joint
         bases, before = self.plain, [p.weighed(np.zeros((p.space.size, 0))) for p in self.problems]
@@ -121,8 +123,10 @@ class Arcs:
             parts, forces = self._modes(joint, bases)
             # the last two solutions and their answers: the step that led here is not undone
             bases = tuple(
-                p.joined(p.joined(b, together([y, z]), SOLUTIONS), p.answers(f), ANSWERS)
-                for p, b, y, z, f in zip(self.problems, self.plain, parts, before, forces, strict=True)
+                p.joined(p.joined(b, together([y, z]), SOLUTIONS), p.answers(own, f), ANSWERS)
+                for p, own, b, y, z, f in zip(
+                    self.problems, factors, self.plain, parts, before, forces, strict=True
+                )
             )
             before = parts
         return [y.own for y in self._modes(joint, bases)[0]]

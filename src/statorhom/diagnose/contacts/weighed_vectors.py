@@ -17,6 +17,7 @@ from scipy.sparse.linalg import SuperLU, splu
 from statorhom.model.harmonic import Harmonic
 
 FloatArray = np.ndarray
+Factors = tuple[SuperLU, SuperLU]
 
 LEAST = 1e-8  # part of a solution's strain energy that a vector must carry
 
@@ -73,7 +74,6 @@ class WeighedProblem:
     weak, mass : W = K + σM with the contact hardly there, and M.
     contact : what the intact contact adds to W.
     shift : σ.
-    solvers : of K + σM with the contact intact, and hardly there.
     """
 
     space: Harmonic
@@ -81,7 +81,6 @@ class WeighedProblem:
     mass: sp.csr_array
     contact: sp.csr_array
     shift: float
-    solvers: tuple[SuperLU, SuperLU]
 
     @classmethod
     def of(
@@ -89,9 +88,11 @@ class WeighedProblem:
     ) -> WeighedProblem:
         """Of matrices of the half pitch; `weak` is without the mass."""
         weak, mass, contact = (sp.csr_array(space.copies * space.project(m)) for m in (weak, mass, contact))
-        heavy = sp.csr_array(weak + shift * mass)
-        solvers = splu(sp.csc_matrix(heavy + contact)), splu(sp.csc_matrix(heavy))
-        return cls(space, heavy, mass, contact, shift, solvers)
+        return cls(space, sp.csr_array(weak + shift * mass), mass, contact, shift)
+
+    def factored(self) -> Factors:
+        """Factors of K + σM with the contact intact, and hardly there; they are large."""
+        return splu(sp.csc_matrix(self.weak + self.contact)), splu(sp.csc_matrix(self.weak))
 
     def weighed(self, vectors: FloatArray) -> WeighedVectors:
         """Vectors (m, t) with their products."""
@@ -116,9 +117,9 @@ class WeighedProblem:
         values, x = eigh((K + K.T) / 2, (M + M.T) / 2)
         return values, basis @ x
 
-    def answers(self, forces: FloatArray) -> WeighedVectors:
+    def answers(self, factors: Factors, forces: FloatArray) -> WeighedVectors:
         """To forces (m, t), with the contact intact and hardly there."""
-        bonded, loose = (np.asarray(s.solve(forces)) for s in self.solvers)
+        bonded, loose = (np.asarray(f.solve(forces)) for f in factors)
         own, heavy = np.hstack([bonded, loose]), np.hstack([forces - self.contact @ bonded, forces])
         return WeighedVectors(own, heavy, self.mass @ own)
 
