@@ -17,7 +17,7 @@ from statorhom.diagnose.bases.ring_basis import RingBasis, RingModes, mark_of, r
 from statorhom.diagnose.contacts.arc_slopes import KnownSlope
 from statorhom.diagnose.contacts.joint_arc import ArcGroup, JoinedMode, Weakened, arc_groups
 from statorhom.diagnose.contacts.joint_born import born_modes, surface
-from statorhom.diagnose.contacts.joint_condensed import CondensedGroup, Sample, condensed
+from statorhom.diagnose.contacts.joint_condensed import CondensedGroup, Span, condensed
 from statorhom.diagnose.contacts.joint_fields import with_local_fields
 from statorhom.diagnose.contacts.joint_solution import ArcTraining
 from statorhom.diagnose.contacts.joint_training import with_arcs
@@ -36,6 +36,7 @@ from statorhom.physics.action import Joint
 
 LADDER = (1e14, 1e12, 1e11, 1e10)  # N/m³: contacts whose modes span the bases
 SOLUTIONS = 64  # that are kept
+TOGETHER = 8  # samples whose sketches are added before they are handed over
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,22 +114,23 @@ class JointBasis:
 
     def condensed(self, samples: Sequence[tuple[Materials, Joint]], most: int) -> JointBasis:
         """The same in the few vectors that the modes at some materials and arcs span; nearly right between them."""
-        solved = side_by_side(self._sampled, samples, self.ring.problems)
-        own = zip(self.groups, zip(*solved, strict=True), strict=True)
-        few = [condensed(group, self.ring.problems, found, self._top, most) for group, found in own]
+        top = (2 * np.pi * self.ring.highest_hz) ** 2
+        span = Span.of(self.ring.problems, [materials for materials, _ in samples], top, most)
+        # the same ones are added first, whatever the number of processes
+        some = [samples[first : first + TOGETHER] for first in range(0, len(samples), TOGETHER)]
+        summed = side_by_side(partial(self._sketched, span), some)
+        own = zip(self.groups, zip(*summed, strict=True), strict=True)
+        few = [condensed(g, self.ring.problems, span, _added(sketches)) for g, sketches in own]
         return JointBasis(self.ring, self.pieces, self.springs, tuple(few))
 
-    @property
-    def _top(self) -> float:
-        """λ at the band's end."""
-        return (2 * np.pi * self.ring.highest_hz) ** 2
-
-    def _sampled(self, at: tuple[Materials, Joint]) -> list[Sample]:
-        """Modes of all groups."""
-        materials, joint = at
+    def _sketched(self, span: Span, samples: Sequence[tuple[Materials, Joint]]) -> list[list[np.ndarray]]:
+        """Sketches of the modes of all groups, family by family."""
+        found = []
         with one_blas_thread():
-            even = self._even(materials, joint)
-            return [Sample.of(materials, g.weakened(even, joint), self._top) for g in self.groups]
+            for materials, joint in samples:
+                even = self._even(materials, joint)
+                found.append([span.sketches(g.weakened(even, joint)) for g in self.groups])
+        return [_added(of_group) for of_group in zip(*found, strict=True)]
 
     def _named(
         self, weakened: Weakened, keys: Mapping[ModeKey, StatorMode], place: int, materials: Materials
@@ -160,6 +162,11 @@ class JointBasis:
             K, M = problem.matrices(materials)
             matrices.append((K + joint.normal * springs[0] + joint.tangential * springs[1], M))
         return self.ring.solve_matrices(matrices, materials)
+
+
+def _added(sketches: Sequence[Sequence[np.ndarray]]) -> list[np.ndarray]:
+    """Family by family."""
+    return [np.asarray(sum(own)) for own in zip(*sketches, strict=True)]
 
 
 def _with_names(born: Sequence[JoinedMode]) -> dict[ModeKey, JoinedMode]:

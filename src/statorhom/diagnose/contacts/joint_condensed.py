@@ -18,7 +18,7 @@ from statorhom.diagnose.bases.ring_basis import RingModes, RingProblem, material
 from statorhom.diagnose.bases.small_pairs import small_pairs
 from statorhom.diagnose.contacts.arc_slopes import LateSlope, Slope
 from statorhom.diagnose.contacts.joint_arc import REACH, ArcGroup, Family, Weakened, arc_change
-from statorhom.diagnose.contacts.leading_directions import leading_directions
+from statorhom.diagnose.contacts.leading_directions import leading_directions, sketch
 from statorhom.model.affine import Materials, hooke_coefficients
 from statorhom.physics.action import Joint
 
@@ -27,35 +27,56 @@ RIGID = 1e-4  # λ below which a body is rigid, over that of the band's end
 
 
 @dataclass(frozen=True, eq=False)
-class Sample:
-    """Modes of one axial parity that were solved.
+class Span:
+    """What modes at some materials and arcs are summed up in, so that none of them has to be kept.
 
     Parameters
     ----------
-    materials : of all regions.
-    shapes : (Σk, m) of cosine and of sine shapes, of unit energy, and rigid bodies, which have none, of unit motion.
+    roots : per problem (k, k), lower triangles of the mean energy there.
+    top : λ at the band's end.
+    most : vectors of one family.
     """
 
-    materials: Materials
-    shapes: tuple[np.ndarray, ...]
+    roots: tuple[np.ndarray, ...]
+    top: float
+    most: int
 
     @classmethod
-    def of(cls, materials: Materials, weakened: Weakened, top: float) -> Sample:
-        """What of the modes is kept: they are many, and the modes of the even contact are large.
+    def of(
+        cls, problems: Sequence[RingProblem], materials: Sequence[Materials], top: float, most: int
+    ) -> Span:
+        """Of the energies that the problems have with some materials."""
+        return cls(tuple(np.linalg.cholesky(_mean_energy(p, materials, top)) for p in problems), top, most)
+
+    def sketches(self, weakened: Weakened) -> list[np.ndarray]:
+        """What modes of one axial parity add to each family's sketch (`leading_directions`)."""
+        return [self._sketch(family) for family in weakened.families]
+
+    def vectors(self, numbers: Sequence[int], total: np.ndarray) -> np.ndarray:
+        """(Σk, v) directions of most energy, of unit energy each.
 
         Parameters
         ----------
-        top : λ at the band's end.
+        numbers : of a family's problems.
+        total : sum of its sketches.
         """
-        return cls(materials, tuple(_of_unit_energy(family, top) for family in weakened.families))
+        left, sizes = leading_directions(total, self.most)
+        roots = [self.roots[n] for n in numbers]
+        parts = np.split(left[:, sizes > LEAST * sizes[0]], np.cumsum([len(r) for r in roots])[:-1])
+        return np.vstack([solve_triangular(r.T, part) for r, part in zip(roots, parts, strict=True)])
+
+    def _sketch(self, family: Family) -> np.ndarray:
+        # of unit energy, and rigid bodies, which have none, of unit motion
+        rigid = np.where(family.values <= RIGID * self.top, self.top, 0.0)
+        own = np.split(family.coordinates, list(family.starts.values())[1:])
+        parts = zip(family.starts, own, strict=True)
+        shapes = np.vstack([self.roots[n].T @ (family.even.vectors[n] @ x) for n, x in parts])
+        return sketch(shapes / np.sqrt(np.maximum(family.values, 0.0) + rigid), self.most)
 
 
-def _of_unit_energy(family: Family, top: float) -> np.ndarray:
-    vectors = [family.even.vectors[n] for n in family.starts]
-    own = np.split(family.coordinates, list(family.starts.values())[1:])
-    shapes = np.vstack([v @ c for v, c in zip(vectors, own, strict=True)])
-    rigid = np.where(family.values <= RIGID * top, top, 0.0)
-    return np.asarray(shapes / np.sqrt(np.maximum(family.values, 0.0) + rigid))
+def _mean_energy(problem: RingProblem, materials: Sequence[Materials], top: float) -> np.ndarray:
+    pairs = (problem.matrices(m) for m in materials)
+    return np.asarray(sum(K + top * M for K, M in pairs) / len(materials))
 
 
 @dataclass(frozen=True, eq=False)
@@ -188,24 +209,27 @@ class CondensedGroup:
 
 
 def condensed(
-    group: ArcGroup, problems: Sequence[RingProblem], samples: Sequence[Sample], top: float, most: int
+    group: ArcGroup, problems: Sequence[RingProblem], span: Span, sketches: Sequence[np.ndarray]
 ) -> CondensedGroup:
     """A group in the vectors that its modes at some materials and arcs span.
 
     Parameters
     ----------
     group, problems : the problems that an arc couples, of all problems.
-    samples : modes of the group.
-    top : λ at the band's end.
-    most : vectors of one family.
+    span, sketches : of these modes, of cosine and of sine shapes.
     """
-    own = [{n: problems[n] for n in numbers} for numbers in (group.cosine, group.sine)]
-    vectors = [_vectors(list(p.values()), number, samples, top, most) for number, p in enumerate(own)]
+    numbers = group.cosine, group.sine
+    vectors = [span.vectors(own, total) for own, total in zip(numbers, sketches, strict=True)]
     pieces = [group.contact.halves(piece, vectors) for piece in range(2)]
     here, there = _nearest_first(group.slots)
     families = tuple(
-        CondensedFamily(p, V, np.array([h[here] + h[there] for h in halves]), REACH * top)
-        for p, V, *halves in zip(own, vectors, *pieces, strict=True)
+        CondensedFamily(
+            {n: problems[n] for n in own},
+            V,
+            np.array([h[here] + h[there] for h in halves]),
+            REACH * span.top,
+        )
+        for own, V, *halves in zip(numbers, vectors, *pieces, strict=True)
     )
     return CondensedGroup(group.slots, families)
 
@@ -215,24 +239,3 @@ def _nearest_first(slots: int) -> tuple[np.ndarray, np.ndarray]:
     pitch = np.arange(slots)
     order = np.argsort(np.minimum(pitch + 0.25, slots - pitch - 0.25))
     return 2 * order, 2 * (-order % slots) + 1
-
-
-def _vectors(
-    problems: Sequence[RingProblem], number: int, samples: Sequence[Sample], top: float, most: int
-) -> np.ndarray:
-    """(Σk, v) directions in which most of the samples' energy lies, of unit energy in their mean."""
-    roots = [np.linalg.cholesky(_mean_energy(p, samples, top)) for p in problems]
-    ends = np.cumsum([len(r) for r in roots])[:-1]
-
-    def weighed(shapes: np.ndarray) -> np.ndarray:
-        return np.vstack([r.T @ part for r, part in zip(roots, np.split(shapes, ends), strict=True)])
-
-    left, sizes = leading_directions([weighed(s.shapes[number]) for s in samples], most)
-    chosen = left[:, sizes > LEAST * sizes[0]]
-    parts = zip(roots, np.split(chosen, ends), strict=True)
-    return np.vstack([solve_triangular(r.T, part) for r, part in parts])
-
-
-def _mean_energy(problem: RingProblem, samples: Sequence[Sample], top: float) -> np.ndarray:
-    pairs = (problem.matrices(s.materials) for s in samples)
-    return np.asarray(sum(K + top * M for K, M in pairs) / len(samples))

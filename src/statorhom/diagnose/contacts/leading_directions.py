@@ -1,35 +1,46 @@
-"""Directions that hold most of a great many columns.
+"""Directions that hold most of a great many columns, none of which is kept.
 
-A full decomposition of ten thousands of columns takes minutes. A few more random sums of them than directions are
-sought hold these nearly whole, and what all columns make of those sums once more does but for rounding
-(Halko, Martinsson and Tropp 2011, SIAM Rev. 53, 217).
+The columns A of a search are tens of thousands. Of them a sketch A Aᵀ Ω is summed up for a few more random vectors Ω
+than directions are sought, and these follow from it (Nyström's method; Tropp, Yurtsever, Udell and Cevher 2017,
+Adv. Neural Inf. Process. Syst. 30).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
+from scipy.linalg import solve_triangular
 
-SPARE = 40  # sums more than directions
+SPARE = 40  # random vectors more than directions
 SEED = 0
+SHIFT = 1e-14  # part of a sketch that rounding leaves open
 
 
-def leading_directions(parts: Sequence[np.ndarray], most: int) -> tuple[np.ndarray, np.ndarray]:
+def sketch(columns: np.ndarray, most: int) -> np.ndarray:
+    """A Aᵀ Ω (n, v) of some columns (n, t), for at most `most` directions; those of several are added."""
+    return np.asarray(columns @ (columns.T @ _tested(len(columns), most)))
+
+
+def leading_directions(total: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
     """Left singular vectors (n, v) and values (v,) of all columns, the largest first, v at most `most`.
 
     Parameters
     ----------
-    parts : (n, t) columns each, one matrix after the other.
+    total : sum of the columns' sketches, for as many directions.
     """
-    sums = most + SPARE
-    columns = sum(part.shape[1] for part in parts)
-    if min(len(parts[0]), columns) <= 2 * sums:
-        left, values, _ = np.linalg.svd(np.hstack(parts), full_matrices=False)
-        return left[:, :most], values[:most]
-    rng = np.random.default_rng(SEED)
-    basis = np.linalg.qr(sum(part @ rng.standard_normal((part.shape[1], sums)) for part in parts))[0]
-    basis = np.linalg.qr(sum(part @ (part.T @ basis) for part in parts))[0]
-    squares, turn = np.linalg.eigh(sum(inside @ inside.T for inside in (basis.T @ part for part in parts)))
-    largest = np.argsort(-squares)[:most]
-    return basis @ turn[:, largest], np.sqrt(np.maximum(squares[largest], 0.0))
+    tested, shift = _tested(len(total), most), SHIFT * float(np.linalg.norm(total))
+    shifted = total + shift * tested
+    inner = tested.T @ shifted
+    root = np.linalg.cholesky((inner + inner.T) / 2)
+    left, values, _ = np.linalg.svd(solve_triangular(root, shifted.T, lower=True).T, full_matrices=False)
+    return left[:, :most], np.sqrt(np.maximum(values[:most] ** 2 - shift, 0.0))
+
+
+@lru_cache(maxsize=4)
+def _tested(rows: int, most: int) -> np.ndarray:
+    """Ω (n, v); all directions where there are few."""
+    wide = most + SPARE
+    found = np.eye(rows) if rows <= 2 * wide else np.random.default_rng(SEED).standard_normal((rows, wide))
+    found.setflags(write=False)
+    return found
