@@ -137,8 +137,13 @@ def _gram(rows: np.ndarray, images: np.ndarray) -> Gram:
     """Products of rows (d, r) with images (d, c), of which both kinds share the real ones."""
     a, b = (np.ascontiguousarray(x.T) for x in (rows.real, rows.imag))
     c, d = np.ascontiguousarray(images.real), np.ascontiguousarray(images.imag)
-    ac, bd, ad, bc = a @ c, b @ d, a @ d, b @ c
-    return Gram((ac + bd) + 1j * (ad - bc), (ac - bd) + 1j * (ad + bc))
+    hermitian, transposed = (np.empty((len(a), c.shape[1]), dtype=complex) for _ in range(2))
+    # two real products at a time: of large bases each takes half a gigabyte
+    for one, other, part, sign in ((c, d, "real", 1), (d, c, "imag", -1)):
+        straight, crossed = a @ one, b @ other
+        setattr(hermitian, part, straight + sign * crossed)
+        setattr(transposed, part, straight - sign * crossed)
+    return Gram(hermitian, transposed)
 
 
 def _families(same: np.ndarray, twice: np.ndarray, rows: Waves, columns: Waves) -> np.ndarray:
