@@ -13,7 +13,7 @@ h = 0 and h = N/2 the real and the imaginary part decouple into the "even" and t
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -70,16 +70,13 @@ class Harmonic:
         real, imaginary = self.real, self.imaginary
         return sp.csr_array(real.T @ (matrix @ real) + imaginary.T @ (matrix @ imaginary))
 
-    def expand(self, y: np.ndarray, dofs: np.ndarray | None = None) -> np.ndarray:
-        """Complex displacements of the half pitch of coordinates `y` (m, …).
+    def at(self, dofs: np.ndarray) -> Harmonic:
+        """The same of some displacements alone, by their numbers (d,): all that is said of 3 n is of d then."""
+        return replace(self, real=self.real[dofs], imaginary=self.imaginary[dofs])
 
-        Parameters
-        ----------
-        y : coordinates.
-        dofs : numbers of some displacements, where not all 3 n are asked for.
-        """
-        real, imaginary = (a if dofs is None else a[dofs] for a in (self.real, self.imaginary))
-        return np.asarray(real @ y + 1j * (imaginary @ y))
+    def expand(self, y: np.ndarray) -> np.ndarray:
+        """Complex displacements of the half pitch (3 n, …) of coordinates `y` (m, …)."""
+        return np.asarray(self.real @ y + 1j * (self.imaginary @ y))
 
 
 def harmonic_spaces(mesh: HalfPitchMesh, order: int) -> tuple[Harmonic, ...]:

@@ -193,7 +193,7 @@ def arc_groups(ring: RingBasis, pieces: tuple[Pieces, Pieces]) -> Iterator[ArcGr
     Their waves and pieces know the displacements alone that the contact acts on. One group after the other: what it
     keeps takes a gigabyte where bases are large.
     """
-    dofs, local = touched(pieces)
+    dofs, local = where_they_touch(pieces)
     for axial in dict.fromkeys(p.space.axial for p in ring.problems):
         numbers = [n for n, p in enumerate(ring.problems) if p.space.axial == axial]
         own = [ring.problems[n] for n in numbers]
@@ -202,7 +202,7 @@ def arc_groups(ring: RingBasis, pieces: tuple[Pieces, Pieces]) -> Iterator[ArcGr
             for value in (lambda s: s.order, lambda s: s.parity == "odd", lambda s: s.parity == "even")
         )
         waves = Waves(
-            np.hstack([p.space.expand(p.basis, dofs) for p in own]),
+            np.hstack([p.space.at(dofs).expand(p.basis) for p in own]),
             order,
             np.flatnonzero(~odd),
             np.flatnonzero(~even),
@@ -214,7 +214,7 @@ def arc_groups(ring: RingBasis, pieces: tuple[Pieces, Pieces]) -> Iterator[ArcGr
         yield ArcGroup(tuple(numbers), cosine, sine, contact, ring.highest_hz)
 
 
-def touched(pieces: tuple[Pieces, Pieces]) -> tuple[np.ndarray, tuple[Pieces, Pieces]]:
+def where_they_touch(pieces: tuple[Pieces, Pieces]) -> tuple[np.ndarray, tuple[Pieces, Pieces]]:
     """Displacements (d,) that a contact acts on, both ways the same, and its pieces between these alone."""
     dofs, normal = pieces[0].alone()
     return dofs, (normal, replace(normal, matrices=pieces[1].matrices))

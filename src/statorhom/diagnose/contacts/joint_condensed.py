@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 
 import numpy as np
 from scipy.linalg import solve_triangular
@@ -171,8 +171,9 @@ class CondensedFamily:
         coefficients = np.concatenate([hooke_coefficients(materials[r].hooke) for r in self.regions])
         density = np.array([materials[r].density for r in self.regions])
         reach = len(np.trim_zeros(change, "b"))  # beyond that the contact is intact
-        contact = (w + change[:reach] @ own[:reach] for w, own in zip(self._intact, self.halves, strict=True))
-        normal, tangential = contact
+        normal, tangential = (
+            w + change[:reach] @ own[:reach] for w, own in zip(self._intact, self.halves, strict=True)
+        )
         K = coefficients @ self._stiffness + joint.normal * normal + joint.tangential * tangential
         shape = (self.vectors.shape[1],) * 2
         values, x = small_pairs(K.reshape(shape), (density @ self._mass).reshape(shape))
@@ -234,6 +235,7 @@ def condensed(
     return CondensedGroup(group.slots, families)
 
 
+@lru_cache(maxsize=8)
 def _nearest_first(slots: int) -> tuple[np.ndarray, np.ndarray]:
     """Numbers (N,) of the half pitches by how far from θ = 0 they lie, and of their mirror images (`arc_change`)."""
     pitch = np.arange(slots)

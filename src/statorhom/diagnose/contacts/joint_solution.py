@@ -15,11 +15,12 @@ import numpy as np
 import scipy.sparse as sp
 
 from statorhom.diagnose.bases.ring_basis import RingBasis, RingModes, RingProblem
-from statorhom.diagnose.contacts.joint_arc import Family, arc_change, arc_groups, touched
+from statorhom.diagnose.contacts.joint_arc import Family, arc_change, arc_groups, where_they_touch
 from statorhom.diagnose.contacts.weighed_vectors import Factors, WeighedProblem, WeighedVectors, together
 from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.model.affine import Materials
 from statorhom.model.broken.pieces import Pieces
+from statorhom.model.harmonic import Harmonic
 from statorhom.physics.action import Joint
 
 # exact: to a few ten-thousandths of a frequency; rough: enough to tell arcs apart, in half the time
@@ -27,10 +28,8 @@ EXACT, ROUGH = 5, 2
 REACH = 1.2  # how much higher than the band's end the solutions' λ are followed
 RIGID = 1e-4  # part of the band's highest λ below which a body is rigid
 WEAK = 3e10  # N/m³: contact of parts that hardly touch
-SOLUTIONS, ANSWERS = (
-    50,
-    25,
-)  # vectors of the last two solutions, and of answers to them, that one problem keeps
+# vectors of the last two solutions, and of answers to them, that one problem keeps
+SOLUTIONS, ANSWERS = 50, 25
 PARTS = 30  # that are kept of all solutions in the end
 CHUNK = 24  # modes whose motion in all half pitches is held at once
 
@@ -79,14 +78,11 @@ class Arcs:
         return (2 * np.pi * self.ring.highest_hz) ** 2
 
     @cached_property
-    def touched(self) -> np.ndarray:
-        """Displacements that the contact acts on."""
-        return touched(self.pieces)[0]
-
-    @cached_property
-    def intact(self) -> sp.csr_array:
-        """Contact of the half pitch between the displacements that it acts on."""
-        return sp.csr_array(self._bond[self.touched][:, self.touched])
+    def touched(self) -> tuple[tuple[Harmonic, ...], sp.csr_array]:
+        """All harmonics at the displacements that the contact acts on, and the intact contact between these."""
+        dofs, _ = where_they_touch(self.pieces)
+        spaces = tuple(p.space.at(dofs) for p in self.ring.problems)
+        return spaces, sp.csr_array(self._bond[dofs][:, dofs])
 
     @property
     def _bond(self) -> sp.csr_array:
@@ -103,7 +99,7 @@ class Arcs:
 
     def parts(self, trainings: Sequence[ArcTraining]) -> Parts:
         """Of the modes of all arcs, per problem; their materials are these."""
-        _ = self.problems, self.plain, self.touched, self.intact  # made once, before processes part
+        _ = self.problems, self.plain, self.touched  # made once, before processes part
         # gigabytes, that are gone before another winding's are made
         factors = [p.factored() for p in self.problems]
         own = side_by_side(partial(self._solved, factors), trainings)
@@ -178,13 +174,13 @@ class Arcs:
         self, joint: Joint, motions: Mapping[int, np.ndarray], sine: bool
     ) -> dict[int, np.ndarray]:
         slots = self.ring.model.mesh.slots
-        spaces = {n: self.problems[n].space for n in motions}
+        spaces = {n: self.touched[0][n] for n in motions}
         # the motion is Re(û z) in a pitch and Re(conj(û) z) in its mirror image, of the sines Im
         phases = np.stack(
             [np.exp(2j * np.pi / slots * s.order * np.arange(slots)) for s in spaces.values()], axis=1
         )
         turned = -1j * phases if sine else phases
-        local = np.stack([spaces[n].expand(y, self.touched) for n, y in motions.items()])
+        local = np.stack([spaces[n].expand(y) for n, y in motions.items()])
         straight, mirrored = (np.tensordot(turned, u, axes=1).real for u in (local, np.conj(local)))
         change = arc_change(joint, slots)
         pulled, pushed = (
@@ -195,9 +191,9 @@ class Arcs:
         found = {}
         for (n, space), a, b in zip(spaces.items(), pulled, pushed, strict=True):
             force = self._contact(a) + np.conj(self._contact(b))
-            real, imaginary = space.real[self.touched], space.imaginary[self.touched]
-            found[n] = np.asarray(real.T @ force.real + imaginary.T @ force.imag)
+            found[n] = np.asarray(space.real.T @ force.real + space.imaginary.T @ force.imag)
         return found
 
     def _contact(self, motion: np.ndarray) -> np.ndarray:
-        return np.asarray(self.intact @ motion.real + 1j * (self.intact @ motion.imag))
+        _, intact = self.touched
+        return np.asarray(intact @ motion.real + 1j * (intact @ motion.imag))

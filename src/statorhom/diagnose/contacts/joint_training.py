@@ -62,7 +62,7 @@ def with_arcs(ring: RingBasis, pieces: tuple[Pieces, Pieces], trainings: Sequenc
     first = Arcs(begun, pieces, unit, trainings[0].materials, trainings[0].joint)
 
     def parts_of(number: int) -> Parts:
-        # factors are large: those of one winding are gone before those of the next are made
+        # what is made for one winding is gone before the next one's is
         own = windings[number]
         return (replace(first, materials=own[0].materials) if number else first).parts(own)
 

@@ -60,9 +60,7 @@ def free_features(
     discrepancy : relative standard deviation that is added to all frequencies.
     """
     found: list[Feature] = []
-    by_key: dict[ModeKey | None, list[MeasuredMode]] = {}
-    for row, key in zip(modes, keys, strict=True):
-        by_key.setdefault(key, []).append(row)
+    by_key = _by_partner(modes, keys)
     typical = _typical_split(test, [rows for key, rows in by_key.items() if key is not None])
     for key, rows in by_key.items():
         if key is None:
@@ -77,6 +75,14 @@ def free_features(
             found += min(ways, key=cost_of) if len(ways) > 1 else ways[0]
         else:
             found += _vanished(test, rows, key)
+    return found
+
+
+def _by_partner(modes: Sequence[MeasuredMode], keys: Keys) -> dict[ModeKey | None, list[MeasuredMode]]:
+    """Measured modes by the key of their partner."""
+    found: dict[ModeKey | None, list[MeasuredMode]] = {}
+    for mode, key in zip(modes, keys, strict=True):
+        found.setdefault(key, []).append(mode)
     return found
 
 
@@ -115,11 +121,8 @@ def _vanished(test: MeasuredTest, rows: Sequence[MeasuredMode], key: ModeKey) ->
 def with_rows(found: Sequence[Feature], modes: Sequence[MeasuredMode], keys: Keys) -> list[Feature]:
     """Features of a free test with the labels of the measured modes that they are of."""
     # frequencies and splits have theirs: in wide valleys there is nothing else
-    labels = {
-        key: tuple(m.label for m, k in zip(modes, keys, strict=True) if k == key)
-        for key in {f.key for f in found if not f.rows} - {None}
-    }
-    return [f if f.rows else replace(f, rows=labels.get(f.key, ())) for f in found]
+    labels = {key: tuple(m.label for m in rows) for key, rows in _by_partner(modes, keys).items() if key}
+    return [f if f.rows else replace(f, rows=labels.get(f.key, ()) if f.key else ()) for f in found]
 
 
 def own_sd(error: ModelError, key: ModeKey) -> float:

@@ -139,10 +139,11 @@ def _gram(rows: np.ndarray, images: np.ndarray) -> Gram:
     c, d = np.ascontiguousarray(images.real), np.ascontiguousarray(images.imag)
     hermitian, transposed = (np.empty((len(a), c.shape[1]), dtype=complex) for _ in range(2))
     # two real products at a time: of large bases each takes half a gigabyte
-    for one, other, part, sign in ((c, d, "real", 1), (d, c, "imag", -1)):
-        straight, crossed = a @ one, b @ other
-        setattr(hermitian, part, straight + sign * crossed)
-        setattr(transposed, part, straight - sign * crossed)
+    ac, bd = a @ c, b @ d
+    hermitian.real, transposed.real = ac + bd, ac - bd
+    del ac, bd
+    ad, bc = a @ d, b @ c
+    hermitian.imag, transposed.imag = ad - bc, ad + bc
     return Gram(hermitian, transposed)
 
 
