@@ -92,10 +92,10 @@ def _directions(
     snapshots = np.hstack([x / np.sqrt(t.eigenvalues) for t in trainings for x in _coordinates(t, number)])
     trace = problem.vectors[sector.loaded]
     inner = np.diag(problem.values + sector.shift)
-    norm = np.block([[inner, trace.T], [trace, sector.flexibility]])
+    norm = np.block([[inner, trace.T], [trace, sector.answers.flexibility]])
     chosen = _principal(norm, snapshots)
     count = problem.vectors.shape[1]
-    vectors = problem.vectors @ chosen[:count] + sector.responses @ chosen[count:]
+    vectors = problem.vectors @ chosen[:count] + sector.answers.responses @ chosen[count:]
     return vectors, norm @ chosen
 
 

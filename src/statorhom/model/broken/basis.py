@@ -23,6 +23,7 @@ from statorhom.model.broken.surface_answers import SurfaceAnswers, surface_answe
 from statorhom.model.broken.waves import Waves
 from statorhom.model.cyclic.half_pitch import half_pitch
 from statorhom.model.cyclic.problem import CyclicProblem, Shifted
+from statorhom.model.cyclic.unit_loads import UnitLoads
 from statorhom.model.eigen import SHIFT
 from statorhom.model.harmonic import all_orders, spaces_of
 from statorhom.model.kept import Kept
@@ -181,6 +182,7 @@ def symmetric_basis(
     shifted = {part.axial: Shifted(half_pitch(part, K, M), shift) for part in parts}
     spaces = [s for order in all_orders(model.mesh.slots) for s in spaces_of(parts, order)]
     surface = surface_dofs(model.mesh)
-    sectors = [Sector(CyclicProblem(space, shifted[space.axial]), surface) for space in spaces]
+    unit = {axial: UnitLoads(one, surface) for axial, one in shifted.items()}
+    sectors = [Sector(CyclicProblem(s, shifted[s.axial]), unit[s.axial]) for s in spaces]
     problems = solved_problems(sectors, margin * highest_hz, certified=certified, jobs=jobs)
     return SymmetricBasis(model.mesh, problems, highest_hz, margin * highest_hz, shift)

@@ -60,7 +60,8 @@ class ProblemBasis:
 
     def surface_products(self) -> tuple[np.ndarray, np.ndarray]:
         """Mass products (w, s) and (t, s) of vectors and probes with the surface's static responses."""
-        return self.vectors.T @ self.sector.inertial, self.probes.T @ self.sector.inertial
+        answers = self.sector.answers
+        return answers.against(self.inertial), answers.against(self.sector.M @ self.probes)
 
     @cached_property
     def surface_parts(self) -> tuple[np.ndarray, np.ndarray]:

@@ -10,6 +10,7 @@ import scipy.sparse as sp
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.cyclic.problem import CyclicProblem, ProblemMatrix
+from statorhom.model.cyclic.unit_loads import LoadedProblem, UnitLoads
 from statorhom.model.eigen import Solve
 from statorhom.model.harmonic import Harmonic
 from statorhom.model.surface import TOLERANCE, surface_radius
@@ -22,11 +23,16 @@ class Sector:
     Parameters
     ----------
     problem : of one harmonic.
-    surface : displacements of the half pitch that lie on the outer surface, ascending.
+    unit : loads on the displacements of the half pitch that lie on the outer surface.
     """
 
     problem: CyclicProblem
-    surface: np.ndarray
+    unit: UnitLoads
+
+    @property
+    def surface(self) -> np.ndarray:
+        """Displacements of the half pitch that lie on the outer surface, ascending."""
+        return self.unit.displacements
 
     @property
     def space(self) -> Harmonic:
@@ -83,26 +89,14 @@ class Sector:
         return np.asarray(self.trace[:, self.loaded].toarray())
 
     @cached_property
-    def responses(self) -> np.ndarray:
-        """(m, s) static responses to unit loads on these coordinates."""
-        loads = np.zeros((self.space.size, len(self.loaded)))
-        loads[self.loaded, np.arange(len(self.loaded))] = 1.0
-        return np.asarray(self.solve(loads))
-
-    @cached_property
-    def flexibility(self) -> np.ndarray:
-        """(s, s) motion of the loaded coordinates in the static responses."""
-        return np.asarray(self.responses[self.loaded])
+    def answers(self) -> LoadedProblem:
+        """To unit loads on these coordinates."""
+        return LoadedProblem(self.problem, self.unit, self.loaded)
 
     @cached_property
     def inertial(self) -> np.ndarray:
         """(m, s) of M times the static responses."""
-        return np.asarray(self.M @ self.responses)
-
-    @cached_property
-    def inertia(self) -> np.ndarray:
-        """(s, s) mass products of the static responses."""
-        return np.asarray(self.responses.T @ self.inertial)
+        return np.asarray(self.M @ self.answers.responses)
 
 
 def surface_dofs(mesh: HalfPitchMesh) -> np.ndarray:

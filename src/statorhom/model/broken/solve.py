@@ -113,7 +113,7 @@ class BrokenModes:
             for sine, place in places.items():
                 loaded = problem.surface_parts[0] @ q[place]
                 if len(own):
-                    loaded = loaded + sector.flexibility @ (own.loads[number][sine] @ f)
+                    loaded = loaded + sector.answers.flexibility @ (own.loads[number][sine] @ f)
                 moved, factor = sector.moved @ loaded, -1j if sine else 1.0
                 straight[order] = straight.get(order, 0.0) + factor * moved
                 mirrored[order] = mirrored.get(order, 0.0) + factor * np.conj(moved)

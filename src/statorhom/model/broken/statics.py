@@ -63,7 +63,9 @@ class StaticResponses:
     def responses(self) -> tuple[Loads, ...]:
         """Per problem: family → (m, a) coordinates of Y."""
         pairs = zip(self.problems, self.loads, strict=True)
-        return tuple({sine: p.sector.responses @ load for sine, load in loads.items()} for p, loads in pairs)
+        return tuple(
+            {sine: p.sector.answers.responses @ load for sine, load in loads.items()} for p, loads in pairs
+        )
 
     @cached_property
     def waves(self) -> tuple[Waves, np.ndarray]:

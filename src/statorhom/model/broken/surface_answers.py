@@ -144,7 +144,8 @@ def surface_answers(problems: Sequence[ProblemBasis], slots: int) -> SurfaceAnsw
 def _answers(problem: ProblemBasis) -> tuple[np.ndarray, ...]:
     """One problem's answers (…, s) to unit loads on its coordinates, in the order of `SurfaceAnswers.starts`."""
     (vectors, probes), masses = problem.surface_parts, problem.surface_products()
-    return problem.sector.flexibility, problem.sector.inertia, vectors.T, *masses, probes.T
+    answers = problem.sector.answers
+    return answers.flexibility, answers.inertia, vectors.T, *masses, probes.T
 
 
 def _numbers(families: np.ndarray, counts: Sequence[int]) -> tuple[np.ndarray, ...]:

@@ -45,9 +45,14 @@ class HalfPitch:
         """Numbers of coordinates a, b and s."""
         return len(self.a), len(self.b), len(self.s)
 
+    @property
+    def dofs(self) -> np.ndarray:
+        """(n,) displacements of the half pitch that carry coordinates, ascending."""
+        return _used(self.part)
+
     def stiffened(self, matrix: sp.csr_array) -> HalfPitch:
         """With a matrix of the half pitch (3 n, 3 n) added to K."""
-        used = _used(self.part)
+        used = self.dofs
         return replace(self, K=sp.csr_array(self.K + self.part.fold(matrix)[used][:, used]))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -81,8 +82,8 @@ class CyclicProblem:
 
     def solve(self, right: np.ndarray) -> np.ndarray:
         """(K + σM)⁻¹ times (m, k)."""
-        factors, D1, D2 = self._condensed, self._phases.first, self._phases.second
-        a, b, s = self._split(right)
+        factors, (D1, D2) = self.factors, self.turns
+        a, b, s = self.split(right)
         a, b = factors.real.lu.solve(a), factors.imaginary.lu.solve(b)
         rest = s - D1 * (factors.real.coupling @ a) - D2 * (factors.imaginary.coupling @ b)
         slot = factors.root[0].T @ (factors.root[0] @ rest)
@@ -90,8 +91,8 @@ class CyclicProblem:
 
     def sampled(self, weights: np.ndarray) -> np.ndarray:
         """Vectors (m, k) with covariance (K + σM)⁻¹ from weights (m, k) that are independent and of unit variance."""
-        factors = self._condensed
-        a, b, s = self._split(weights)
+        factors = self.factors
+        a, b, s = self.split(weights)
         a, b = factors.real.sampled(a), factors.imaginary.sampled(b)
         return self._joined(a, b, factors.root[0].T @ s) / np.sqrt(self.space.copies)
 
@@ -100,30 +101,42 @@ class CyclicProblem:
         return {"space": self.space, "shifted": self.shifted}
 
     @cached_property
-    def _columns(self) -> np.ndarray:
+    def columns(self) -> np.ndarray:
+        """(m,) of the coordinates y among a, b and the slot's plane."""
         return columns(self.shifted.pitch, self.space)
+
+    @property
+    def turns(self) -> tuple[np.ndarray, np.ndarray]:
+        """D₁ and D₂, (slot's plane, 1)."""
+        return self._phases.first, self._phases.second
+
+    @cached_property
+    def factors(self) -> Condensed:
+        """K + σM, eliminated down to the slot's plane; of one copy."""
+        return condensed(self.shifted.pitch, self._phases, *self.shifted.families)
+
+    def split(self, y: np.ndarray) -> list[np.ndarray]:
+        """Vectors (m, k) as their parts of a, b and the slot's plane."""
+        sizes = self.shifted.pitch.sizes
+        vectors = np.zeros((sum(sizes), y.shape[1]))
+        vectors[self.columns] = y
+        return np.split(vectors, np.cumsum(sizes)[:-1])
+
+    def chosen(self, parts: Sequence[np.ndarray]) -> np.ndarray:
+        """Vectors (m, k) of their parts of a, b and the slot's plane."""
+        return np.asarray(np.concatenate(parts)[self.columns])
 
     @cached_property
     def _phases(self) -> Phases:
         return phases(self.shifted.pitch, (self.space,))
 
-    @cached_property
-    def _condensed(self) -> Condensed:
-        return condensed(self.shifted.pitch, self._phases, *self.shifted.families)
-
     def _matrix(self, matrix: sp.csr_array) -> ProblemMatrix:
         factor = float(self.space.copies)
-        return ProblemMatrix(self.shifted.pitch, self._phases, matrix, self._columns, factor)
-
-    def _split(self, y: np.ndarray) -> list[np.ndarray]:
-        sizes = self.shifted.pitch.sizes
-        vectors = np.zeros((sum(sizes), y.shape[1]))
-        vectors[self._columns] = y
-        return np.split(vectors, np.cumsum(sizes)[:-1])
+        return ProblemMatrix(self.shifted.pitch, self._phases, matrix, self.columns, factor)
 
     def _joined(self, a: np.ndarray, b: np.ndarray, slot: np.ndarray) -> np.ndarray:
         """What the slot's plane moves too, in the coordinates y."""
-        factors, D1, D2 = self._condensed, self._phases.first, self._phases.second
+        factors, (D1, D2) = self.factors, self.turns
         a = a - factors.real.responses @ (D1 * slot)
         b = b - factors.imaginary.responses @ (D2 * slot)
-        return np.asarray(np.concatenate([a, b, slot])[self._columns])
+        return self.chosen([a, b, slot])
