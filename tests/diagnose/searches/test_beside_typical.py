@@ -10,9 +10,9 @@ import pytest
 
 from statorhom.diagnose.fits.explanations import ADEQUATE
 from statorhom.diagnose.searches import beside_typical as module
+from statorhom.diagnose.searches import best_refit as effects
 from statorhom.diagnose.searches import fled_materials as fled
 from statorhom.diagnose.searches import refit_starts as starts_module
-from statorhom.diagnose.searches import single_effects as effects
 from statorhom.diagnose.searches import typical_materials as typical
 from statorhom.diagnose.searches.refit_starts import CHEAP, DEAR
 from statorhom.errors import SolverError
@@ -72,6 +72,7 @@ class Search:
         monkeypatch.setattr(starts_module, "start_of", self.start)
         monkeypatch.setattr(starts_module, "price", lambda trial: self.prices.get(trial[1][0].label, CHEAP))
         monkeypatch.setattr(effects, "narrowed_starts", lambda start: [start])
+        monkeypatch.setattr(effects, "shared_by", lambda _: [])
         monkeypatch.setattr(module, "shared_by", lambda _: [])
         monkeypatch.setattr(effects, "refitted", lambda h, _: None if h.label == "lost" else self.refit(h))
         monkeypatch.setattr(

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from statorhom.diagnose.fits.any_hypothesis import AnyHypothesis
+from statorhom.diagnose.searches import best_refit as module
 from statorhom.diagnose.searches import refit_starts
-from statorhom.diagnose.searches import single_effects as module
 from statorhom.diagnose.searches.refit_starts import start_of
 from statorhom.physics.parameter import EffectParameter
 

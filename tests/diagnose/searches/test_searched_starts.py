@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from statorhom.diagnose.searches import best_refit
 from statorhom.diagnose.searches import searched_starts as module
-from statorhom.diagnose.searches import single_effects
 from statorhom.diagnose.searches.searched_starts import of_later_steps, searched_starts
 from statorhom.errors import IdentificationError
 
@@ -122,7 +122,8 @@ def best_of(monkeypatch: pytest.MonkeyPatch, adequacy: float, worth: float, *, f
     rough: Any = SimpleNamespace(z=np.zeros(1))
     for name, value in {
         "explained": lambda *_: SimpleNamespace(adequacy_but_one=adequacy),
-        "price": lambda _: single_effects.CHEAP,
+        "price": lambda _: best_refit.CHEAP,
+        "shared_by": lambda _: [],
         "refitted": lambda *_: one,
         "_rival": lambda *_: one,
         "_through": lambda _: one,
@@ -132,10 +133,10 @@ def best_of(monkeypatch: pytest.MonkeyPatch, adequacy: float, worth: float, *, f
         "at_fitting_angle": lambda best, _: best,
         "_whole": lambda best, _: best,
     }.items():
-        monkeypatch.setattr(single_effects, name, value)
+        monkeypatch.setattr(best_refit, name, value)
     one.hypothesis = None
     start: Any = SimpleNamespace(hypothesis=None, z=np.zeros(1))
-    best: Any = single_effects._best_refit([start], worth, far=far)
+    best: Any = best_refit.best_refit([start], worth, far=far)
     return float(best.objective)
 
 

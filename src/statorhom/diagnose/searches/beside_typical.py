@@ -19,10 +19,10 @@ from statorhom.diagnose.fits.explanations import ADEQUATE, Explanation, explaine
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.processes.side_by_side import side_by_side
+from statorhom.diagnose.searches.best_refit import MOSTLY, optima_elsewhere
 from statorhom.diagnose.searches.fled_materials import typical_where_fled
 from statorhom.diagnose.searches.refit_starts import Start, cheap_starts, first_start, shared_by
 from statorhom.diagnose.searches.sharper import sharpened
-from statorhom.diagnose.searches.single_effects import MOSTLY, optima_elsewhere
 from statorhom.diagnose.stages.stage_model import StageModel
 from statorhom.physics.candidate import Candidate
 

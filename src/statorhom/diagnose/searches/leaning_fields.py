@@ -20,8 +20,8 @@ from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.located.scan import starts as scan_starts
 from statorhom.diagnose.processes.side_by_side import side_by_side
 from statorhom.diagnose.searches.beside_typical import in_own_models
+from statorhom.diagnose.searches.best_refit import is_a_field
 from statorhom.diagnose.searches.refit_starts import Start, shared_by, start_of
-from statorhom.diagnose.searches.single_effects import is_a_field
 from statorhom.diagnose.stages.constants import new_constants
 from statorhom.errors import StatorhomError
 from statorhom.physics.candidate import Candidate

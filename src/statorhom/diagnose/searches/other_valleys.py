@@ -25,9 +25,9 @@ from statorhom.diagnose.fits.own_model import in_its_own_model
 from statorhom.diagnose.fits.refit import Refit
 from statorhom.diagnose.located.scan import starts
 from statorhom.diagnose.processes.side_by_side import side_by_side
+from statorhom.diagnose.searches.best_refit import is_a_field
 from statorhom.diagnose.searches.refit_starts import is_poor
 from statorhom.diagnose.searches.sharper import sharpened
-from statorhom.diagnose.searches.single_effects import is_a_field
 from statorhom.errors import StatorhomError
 
 VALLEYS = 2  # that are followed, the best first

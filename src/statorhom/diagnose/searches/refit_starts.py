@@ -263,8 +263,8 @@ def searched(start: Start) -> list[Start]:
 
 def narrowed_starts(start: Start) -> list[Start]:
     """Starts at optima all over the prior in narrower valleys, for what will be sought from there straight away."""
-    narrow = (narrowed(s.rough) for s in searched(start) if s.rough is not None)
-    return [replace(start, z=found.z) for found in narrow]
+    rough = [s.rough for s in searched(start) if s.rough is not None]
+    return [replace(start, z=found.z) for found in side_by_side(narrowed, rough, [start.hypothesis])]
 
 
 def best_of_sizes(start: Start) -> Refit | None:

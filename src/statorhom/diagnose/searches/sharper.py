@@ -26,7 +26,7 @@ from statorhom.diagnose.fits.own_model import AROUND, ITSELF, in_its_own_model
 from statorhom.diagnose.fits.refit import Refit, refit, refit_objective
 from statorhom.diagnose.fits.valleys import APART, FAR_BEHIND, SETTLED, Reached, best_of_sides, is_apart
 from statorhom.diagnose.located.mirrored import at_fitting_height
-from statorhom.diagnose.searches.single_effects import is_a_field
+from statorhom.diagnose.searches.best_refit import is_a_field
 from statorhom.errors import StatorhomError
 
 MOST = 3  # explanations that get models of their own before a second effect is sought
