@@ -72,3 +72,10 @@ def off(kind: str, *orders: int) -> list[Feature]:
 def test_what_is_off_beside_frequencies_is_counted_by_modes(more: Sequence[Feature], words: str) -> None:
     """Of a test whose modes slip as the force grows nothing else may be off."""
     assert said(0.5, -1.0, more=more) == words
+
+
+def test_shapes_that_lean_are_said_where_every_frequency_is_met() -> None:
+    leans = [Feature("lean", "free", (r, 0, 0), 1e-2 * off, 0.0, 1e-2) for r, off in ((2, 2.4), (3, 2.8))]
+    assert "shapes lean to one end by 2.6 standard deviations (rms)" in said(0.5, -1.0, more=leans)
+    little = [Feature("lean", "free", (2, 0, 0), 8e-3, 0.0, 1e-2)]
+    assert "meets every measured mode" in said(0.5, -1.0, more=little)

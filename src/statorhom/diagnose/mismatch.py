@@ -52,11 +52,18 @@ def _weighed(base: Refit) -> str:
 def _unremarkable(test: str, features: Sequence[Feature]) -> str:
     """Of a test of which no mode is remarkably off: all together may be."""
     # doublets that show one line have a split of nothing each
-    own = [f.residual for f in features if f.test == test and f.kind == "frequency"]
-    rms = float(np.sqrt(np.mean(np.square(own)))) if own else 0.0
-    if rms <= TOGETHER:
-        return "the declared model meets every measured mode within its uncertainty"
-    return f"{test}: no mode is far off, but all together are, frequencies by {rms:.1f} standard deviations (rms)"
+    off, lean = (_together(test, kind, features) for kind in ("frequency", "lean"))
+    if off > TOGETHER:
+        return f"{test}: no mode is far off, but all together are, frequencies by {off:.1f} standard deviations (rms)"
+    if lean > TOGETHER:
+        return f"{test}: every frequency is met, but shapes lean to one end by {lean:.1f} standard deviations (rms)"
+    return "the declared model meets every measured mode within its uncertainty"
+
+
+def _together(test: str, kind: str, features: Sequence[Feature]) -> float:
+    """What a test leaves of one kind, root mean square."""
+    own = [f.residual for f in features if f.test == test and f.kind == kind]
+    return float(np.sqrt(np.mean(np.square(own)))) if own else 0.0
 
 
 def _statement(test: str, odd: Sequence[Feature]) -> str:

@@ -148,9 +148,7 @@ def test_beside_a_poor_model_cheap_effects_are_followed_both_ways_from_all_start
     """The first optimum that is adequate does not end it: in another valley one may leave less."""
     monkeypatch.setattr(module, "shared_by", lambda _: [])
     monkeypatch.setattr(module, "_through", lambda start: SimpleNamespace(objective=start.z))
-    monkeypatch.setattr(
-        module, "refitted", lambda _, z: SimpleNamespace(objective=2 * z) if z > 4 else None
-    )
+    monkeypatch.setattr(module, "refitted", lambda _, z: SimpleNamespace(objective=2 * z) if z > 4 else None)
     starts: Any = [SimpleNamespace(hypothesis=None, z=z) for z in (9.0, 3.0)]
     found: Any = module._both_ways(starts)
     assert [r.objective for r in found] == [9.0, 18.0, 3.0]

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from statorhom.diagnose.fits.explanations import ADEQUATE
 from statorhom.diagnose.searches import leaning_fields as module
 from statorhom.diagnose.searches.leaning_fields import PLACES, leaning_fields
 
@@ -100,9 +99,10 @@ def test_leans_that_chance_leaves_ask_for_nothing(stack: Stack) -> None:
     assert not stack.found() and not stack.tried
 
 
-def test_nothing_is_sought_where_the_declared_model_will_do(stack: Stack) -> None:
-    stack.adequacy = 2 * ADEQUATE
-    assert not stack.found() and not stack.tried
+def test_leans_are_enough_where_all_rows_together_may_be_chance(stack: Stack) -> None:
+    """Frequencies of a stack with ends of 1 : 5.6 were met by an axial stiffness twenty times too small."""
+    stack.adequacy = 0.8
+    assert stack.found()
 
 
 def test_what_is_no_better_than_the_lead_is_left(stack: Stack) -> None:

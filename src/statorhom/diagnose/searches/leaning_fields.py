@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.stats import chi2
 
-from statorhom.diagnose.fits.explanations import ADEQUATE, Explanation, nothing, refitted
+from statorhom.diagnose.fits.explanations import Explanation, nothing, refitted
 from statorhom.diagnose.fits.hypothesis import Hypothesis
 from statorhom.diagnose.fits.own_model import in_its_own_model
 from statorhom.diagnose.fits.refit import Refit
@@ -43,9 +43,9 @@ def leaning_fields(
     candidates : all effects.
     counts : effect → number of its candidates, over which its prior is spread.
     """
-    none = nothing(base)
-    best = found[0] if found else none
-    if not isinstance(base.hypothesis, Hypothesis) or none.adequacy > ADEQUATE:
+    best = found[0] if found else nothing(base)
+    # what is left of all rows together may be chance: where the constant has fled to, leans alone contradict
+    if not isinstance(base.hypothesis, Hypothesis):
         return []
     tests = _leaning(best.refit)
     own = {stage.name for stage in base.hypothesis.study.stages if tests & {t.name for t in stage.tests}}
