@@ -42,7 +42,8 @@ def find_load(search: ModeSearch, first: Sequence[FittedWindow]) -> RovingLoad |
         return load
     other = _from(search, plane_starts(search, placed), placed)
     found = [one for one in (load, other) if one is not None]
-    return min(found, key=lambda one: float(np.median(one.misfit)), default=None)
+    # around a mode that one of them lacks it leaves much, of which the median says nothing
+    return min(found, key=lambda one: float(np.mean(np.log(one.misfit))), default=None)
 
 
 def _from(search: ModeSearch, start: ComplexArray, placed: Rings) -> RovingLoad | None:
