@@ -10,33 +10,21 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from pathlib import Path
 
 import numpy as np
+from broken_symmetry import GEOMETRY, HIGHEST_HZ, materials
 from threadpoolctl import threadpool_limits
 
 from statorhom.geometry import stator_geometry
-from statorhom.materials.symmetry import SYMMETRIES
 from statorhom.mesh import graded, mesh_step
-from statorhom.model.affine import Material, Materials, assemble
+from statorhom.model.affine import assemble
 from statorhom.model.broken.basis import symmetric_basis
 from statorhom.model.broken.sector import Sector
 from statorhom.study.geometry_file import read_geometry
 
-GEOMETRY = Path(__file__).resolve().parents[1] / "geometries" / "550w-induction-36-slots.toml"
-STACK = {"E_p_pa": 182e9, "E_z_pa": 100e9, "nu_p": 0.29, "nu_pz": 0.31, "G_rz_pa": 25e9}
-WINDING = {"E_p_pa": 2.1e9, "E_z_pa": 11e9, "nu_p": 0.33, "nu_pz": 0.08, "G_rz_pa": 0.7e9}
-HIGHEST_HZ = 8000.0
 REPEATS = 3
 
 Answers = list[tuple[np.ndarray, np.ndarray]]
-
-
-def materials() -> Materials:
-    """Typical ones."""
-    kind = SYMMETRIES["transversely_isotropic"]
-    winding = Material(kind(**WINDING).hooke(), 3166.0)
-    return {"lamination": Material(kind(**STACK).hooke(), 7810.5), "winding": winding, "overhang": winding}
 
 
 def sectors() -> Sequence[Sector]:

@@ -8,7 +8,7 @@ from statorhom.geometry import stator_geometry
 from statorhom.materials.orthotropic import Orthotropic
 from statorhom.materials.transversely_isotropic import TransverselyIsotropic
 from statorhom.mesh import MeshDensity, mesh_step, uniform
-from statorhom.model.affine import Material, hooke_coefficients
+from statorhom.model.affine import Material, assemble, hooke_coefficients
 from statorhom.model.assembly import (
     HOOKE_ENTRIES,
     block_pattern,
@@ -17,7 +17,11 @@ from statorhom.model.assembly import (
     node_blocks,
     stiffness_blocks,
 )
+from statorhom.model.cyclic.half_pitch import half_pitch
+from statorhom.model.cyclic.problem import CyclicProblem, Shifted
 from statorhom.model.element import gauss_table
+from statorhom.model.harmonic import spaces_of
+from statorhom.model.pitch_parts import pitch_parts
 from statorhom.study.geometry_file import GeometryFile
 
 STACK = Material(TransverselyIsotropic(182e9, 100e9, 0.29, 0.31, 25e9).hooke(), 7810.5)
@@ -103,3 +107,15 @@ def rigid_bodies(nodes):
     fields = [np.broadcast_to(axis, nodes.shape) for axis in np.eye(3)]
     fields += [np.cross(axis, nodes) for axis in np.eye(3)]
     return np.array([cylindrical(nodes, field) for field in fields])
+
+
+def cyclic_problems(mesh, orders, shift):
+    """Problems (K + shift M) of some orders, each with its matrices K and M of the whole stator."""
+    model = assemble(mesh)
+    K, M = model.stiffness_matrix(MATERIALS), model.mass_matrix(MATERIALS)
+    parts = pitch_parts(mesh)
+    shifted = {part.axial: Shifted(half_pitch(part, K, M), shift) for part in parts}
+    spaces = [space for order in orders for space in spaces_of(parts, order)]
+    return [
+        (CyclicProblem(s, shifted[s.axial]), s.copies * s.project(K), s.copies * s.project(M)) for s in spaces
+    ]

@@ -4,27 +4,14 @@ import pickle
 
 import numpy as np
 import pytest
-from small_stators import MATERIALS, stator_mesh
-
-from statorhom.model.affine import assemble
-from statorhom.model.cyclic.half_pitch import half_pitch
-from statorhom.model.cyclic.problem import CyclicProblem, Shifted
-from statorhom.model.harmonic import spaces_of
-from statorhom.model.pitch_parts import pitch_parts
+from small_stators import cyclic_problems, stator_mesh
 
 SHIFT = 1e7
 
 
 @pytest.fixture(scope="module")
 def problems():
-    model = assemble(stator_mesh(6))
-    K, M = model.stiffness_matrix(MATERIALS), model.mass_matrix(MATERIALS)
-    parts = pitch_parts(model.mesh)
-    shifted = {part.axial: Shifted(half_pitch(part, K, M), SHIFT) for part in parts}
-    spaces = [space for order in (0, 1, 3) for space in spaces_of(parts, order)]
-    return [
-        (CyclicProblem(s, shifted[s.axial]), s.copies * s.project(K), s.copies * s.project(M)) for s in spaces
-    ]
+    return cyclic_problems(stator_mesh(6), (0, 1, 3), SHIFT)
 
 
 def test_it_multiplies_and_solves_as_its_matrices_do(problems):

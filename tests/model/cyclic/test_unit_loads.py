@@ -2,15 +2,10 @@
 
 import numpy as np
 import pytest
-from small_stators import MATERIALS, stator_mesh
+from small_stators import cyclic_problems, stator_mesh
 
-from statorhom.model.affine import assemble
 from statorhom.model.broken.sector import Sector, surface_dofs
-from statorhom.model.cyclic.half_pitch import half_pitch
-from statorhom.model.cyclic.problem import CyclicProblem, Shifted
 from statorhom.model.cyclic.unit_loads import UnitLoads
-from statorhom.model.harmonic import spaces_of
-from statorhom.model.pitch_parts import pitch_parts
 
 SHIFT = 1e7
 
@@ -18,20 +13,11 @@ SHIFT = 1e7
 @pytest.fixture(scope="module")
 def solved():
     """Answers of singlets and pairs with the matrices they are of, (problem, answers, K, M)."""
-    model = assemble(stator_mesh(6))
-    K, M = model.stiffness_matrix(MATERIALS), model.mass_matrix(MATERIALS)
-    parts = pitch_parts(model.mesh)
-    shifted = {part.axial: Shifted(half_pitch(part, K, M), SHIFT) for part in parts}
-    unit = {axial: UnitLoads(one, surface_dofs(model.mesh)) for axial, one in shifted.items()}
-    sectors = [
-        Sector(CyclicProblem(space, shifted[space.axial]), unit[space.axial])
-        for order in (0, 1, 3)
-        for space in spaces_of(parts, order)
-    ]
-    return [
-        (s, s.answers, (s.space.copies * s.space.project(K)).toarray(), s.space.copies * s.space.project(M))
-        for s in sectors
-    ]
+    mesh = stator_mesh(6)
+    problems = cyclic_problems(mesh, (0, 1, 3), SHIFT)
+    unit = {p.space.axial: UnitLoads(p.shifted, surface_dofs(mesh)) for p, _, _ in problems}
+    sectors = [(Sector(p, unit[p.space.axial]), K, M) for p, K, M in problems]
+    return [(s, s.answers, K.toarray(), M) for s, K, M in sectors]
 
 
 def _exact(sector, K, M):

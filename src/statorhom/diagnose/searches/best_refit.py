@@ -48,15 +48,15 @@ def best_refit(starts: Sequence[Start], worth: float, *, far: bool, known: float
     costs_little = price((0.0, list(starts))) == CHEAP
     cheap = far and costs_little and np.isinf(worth)
     found = _both_ways(starts) if cheap else _until_it_will_do(starts, worth, far=far, known=known)
-    best = min(found, key=_objective, default=None)
+    if not found:
+        return None
+    best = min(found, key=_objective)
     others: list[Refit] = []
-    if best is not None and cheap:
+    if cheap:
         others = beside_later_steps(best)
-    elif best is not None and costs_little and not far and best.objective > known:
+    elif costs_little and not far and best.objective > known:
         # beside a poor model the strongest effects are sought all over the prior in any case
         others = [] if _holds(starts[0]) else optima_elsewhere(starts[0])
-    if best is None:
-        return None
     placed = at_fitting_height(at_fitting_angle(min([best, *others], key=_objective), worth), worth)
     return _whole(placed, worth)
 

@@ -43,10 +43,10 @@ def leaning_fields(
     candidates : all effects.
     counts : effect → number of its candidates, over which its prior is spread.
     """
-    best = found[0] if found else nothing(base)
-    # what is left of all rows together may be chance: where the constant has fled to, leans alone contradict
     if not isinstance(base.hypothesis, Hypothesis):
         return []
+    best = found[0] if found else nothing(base)
+    # what is left of all rows together may be chance: where the constant has fled to, leans alone contradict
     tests = _leaning(best.refit)
     own = {stage.name for stage in base.hypothesis.study.stages if tests & {t.name for t in stage.tests}}
     begun = [s for c in candidates if c.stage in own and not c.located for s in _starts(base, c)]

@@ -127,7 +127,8 @@ def _together(waiting: Sequence[Trial]) -> int:
     """How many of the next trials know of the same others; what costs more and promises nothing waits for the rest."""
     chosen = waiting[:TOGETHER]
     idle = [gain < WORTH and price((gain, starts)) > CHEAP for gain, starts in chosen]
-    return idle.index(True) if any(idle[1:]) and not idle[0] else len(chosen)
+    first = idle.index(True) if True in idle else 0
+    return first or len(chosen)
 
 
 def _limit(base: Refit, trial: Trial, explanations: Sequence[Explanation], limit: float) -> float | None:

@@ -2,7 +2,7 @@
 
 Y = (K + σM)⁻¹ Lᵀ over all harmonics. With them in the basis a spring's or a lump's own local field is exact, and modes
 above the cut count only by their inertia. Every product of Y comes from those of the surface's unit loads, which are
-solved once per problem (`statorhom.model.broken.sector`).
+solved once for all problems (`statorhom.model.cyclic.unit_loads`).
 """
 
 from __future__ import annotations

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -70,15 +71,16 @@ class UnitLoads:
         """The coordinates a and b."""
         pitch = self.shifted.pitch
         real, imaginary = (
-            _loaded(
-                pitch, family, eliminated, np.flatnonzero(np.isin(pitch.dofs[family], self.displacements))
-            )
+            _loaded(pitch, family, eliminated, self.displacements)
             for family, eliminated in zip((pitch.a, pitch.b), self.shifted.families, strict=True)
         )
         return real, imaginary
 
 
-def _loaded(pitch: HalfPitch, family: np.ndarray, eliminated: Eliminated, places: np.ndarray) -> LoadedFamily:
+def _loaded(
+    pitch: HalfPitch, family: np.ndarray, eliminated: Eliminated, displacements: np.ndarray
+) -> LoadedFamily:
+    places = np.flatnonzero(np.isin(pitch.dofs[family], displacements))
     loads = np.zeros((len(family), len(places)))
     loads[places, np.arange(len(places))] = 1.0
     held, by_slot = eliminated.lu.solve(loads), eliminated.responses
@@ -94,6 +96,15 @@ def _loaded(pitch: HalfPitch, family: np.ndarray, eliminated: Eliminated, places
         held.T @ forces[family],
         motions.T @ forces,
     )
+
+
+class _Part(NamedTuple):
+    """Which of a problem's loads act on a family, which of its unit loads they are, and how its plane turns (D)."""
+
+    which: np.ndarray
+    places: np.ndarray
+    family: LoadedFamily
+    turn: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,10 +125,8 @@ class LoadedProblem:
     @cached_property
     def flexibility(self) -> np.ndarray:
         """(s, s) motion of the loaded coordinates."""
-        rest = self._rest
-        half = self.problem.factors.root[0] @ rest
-        found = half.T @ half
-        for (which, places), family in zip(self._among, self.unit.families, strict=True):
+        found = self._half.T @ self._half
+        for which, places, family, _ in self._parts:
             found[np.ix_(which, which)] += family.flexibility[np.ix_(places, places)]
         return found / self.problem.space.copies
 
@@ -125,8 +134,8 @@ class LoadedProblem:
     def inertia(self) -> np.ndarray:
         """(s, s) mass products of the responses."""
         found = np.zeros((len(self.loaded), len(self.loaded)))
-        parts = zip(self._among, self.unit.families, self._turned, strict=True)
-        for (which, places), family, slot in parts:
+        for which, places, family, turn in self._parts:
+            slot = turn * self._slot
             found += slot.T @ family.inertia @ slot
             cross = family.coupled[places] @ slot
             found[which] -= cross
@@ -138,23 +147,18 @@ class LoadedProblem:
     def responses(self) -> np.ndarray:
         """(m, s) R."""
         blocks = []
-        parts = zip(self._among, self.unit.families, self._turned, strict=True)
-        for (which, places), family, slot in parts:
-            block = -family.by_slot @ slot
+        for which, places, family, turn in self._parts:
+            block = -family.by_slot @ (turn * self._slot)
             block[:, which] += family.held[:, places]
             blocks.append(block)
         return np.asarray(self.problem.chosen([*blocks, self._slot]) / self.problem.space.copies)
 
     def against(self, forces: np.ndarray) -> np.ndarray:
         """Work (k, s) of forces (m, k) on the responses."""
-        first, second, slot = self.problem.split(forces)
-        pairs = zip((first, second), self.unit.families, self.problem.turns, strict=True)
-        for own, family, turn in pairs:
-            slot = slot - turn * (family.by_slot.T @ own)
+        *inner, slot = self.problem.split(forces)
         found = slot.T @ self._slot
-        for own, (which, places), family in zip(
-            (first, second), self._among, self.unit.families, strict=True
-        ):
+        for own, (which, places, family, turn) in zip(inner, self._parts, strict=True):
+            found -= (turn * (family.by_slot.T @ own)).T @ self._slot
             found[:, which] += own.T @ family.held[:, places]
         return np.asarray(found / self.problem.space.copies)
 
@@ -164,36 +168,34 @@ class LoadedProblem:
         return self.problem.columns[self.loaded]
 
     @cached_property
-    def _among(self) -> tuple[tuple[np.ndarray, np.ndarray], ...]:
-        """Of either family: which loads act on it, and which of its unit loads they are."""
+    def _parts(self) -> tuple[_Part, ...]:
+        """Of either family."""
         found, start = [], 0
-        for family, size in zip(self.unit.families, self.unit.shifted.pitch.sizes, strict=False):
+        families = zip(self.unit.families, self.problem.turns, self.unit.shifted.pitch.sizes, strict=False)
+        for family, turn, size in families:
             which = np.flatnonzero((self._columns >= start) & (self._columns < start + size))
-            found.append((which, np.searchsorted(family.places, self._columns[which] - start)))
+            places = np.searchsorted(family.places, self._columns[which] - start)
+            found.append(_Part(which, places, family, turn))
             start += size
         return tuple(found)
 
-    @cached_property
+    @property
     def _rest(self) -> np.ndarray:
         """(slot's plane, s) the loads, condensed on the slot's plane."""
         first, second, slot = self.unit.shifted.pitch.sizes
         rest = np.zeros((slot, len(self.loaded)))
-        for (which, places), family, turn in zip(
-            self._among, self.unit.families, self.problem.turns, strict=True
-        ):
+        for which, places, family, turn in self._parts:
             rest[:, which] = -turn * family.condensed[:, places]
         on_slot = np.flatnonzero(self._columns >= first + second)
         rest[self._columns[on_slot] - first - second, on_slot] = 1.0
         return rest
 
     @cached_property
-    def _slot(self) -> np.ndarray:
-        """(slot's plane, s) S."""
-        root = self.problem.factors.root[0]
-        return np.asarray(root.T @ (root @ self._rest))
+    def _half(self) -> np.ndarray:
+        """(slot's plane, s) the same by the root of S_h⁻¹."""
+        return np.asarray(self.problem.factors.root[0] @ self._rest)
 
     @cached_property
-    def _turned(self) -> tuple[np.ndarray, np.ndarray]:
-        """D₁ S and D₂ S."""
-        first, second = (turn * self._slot for turn in self.problem.turns)
-        return first, second
+    def _slot(self) -> np.ndarray:
+        """(slot's plane, s) S."""
+        return np.asarray(self.problem.factors.root[0].T @ self._half)
