@@ -46,3 +46,10 @@ def test_a_clear_mode_of_the_band_is_likely_to_be_found() -> None:
     assert cost({}, {2000.0: 1.0}) == pytest.approx(-2.0 * np.log(1.0 - 0.8 / 1.1))
     assert cost({}, {2000.0: 0.003}) < 0.05
     assert cost({}, {900.0: 1.0, 3100.0: 1.0}) == 0.0  # nobody looked there
+
+
+def test_a_test_that_shows_nothing_says_nothing() -> None:
+    """As a repetition does of one whose lines the declared model has no modes for."""
+    mode = StatorMode(2000.0, 3, 0, "radial", 1.0, 2, 0, 0)
+    predicted = {(3, 0, 0): PredictedMode((3, 0, 0), mode, float(np.log(2000.0)), 0j, 1e-3)}
+    assert detection_cost(MeasuredTest(0, "t", "free", (), False), (), predicted) == 0.0

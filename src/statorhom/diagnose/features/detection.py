@@ -20,8 +20,11 @@ def detection_cost(test: MeasuredTest, keys: Keys, predicted: Mapping[ModeKey, P
     """-2 ln of the chance that a test found its partners, and none of its band's other modes, beside a clear mode's.
 
     A winding that hardly holds on has modes everywhere, and any line has one near it; but what moves the core by
-    nothing no accelerometer shows.
+    nothing no accelerometer shows. A repetition of a test whose lines the model has no modes for shows none, and says
+    nothing.
     """
+    if not test.modes:
+        return 0.0
     band = [mode.frequency_hz for mode in test.modes]
     lowest, highest = min(band), max(band)
     found = {key for key in keys if key is not None and key in predicted}
