@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from statorhom.diagnose.features.mode_features import ALONE, SPLIT_OWN, SPLIT_PART, free_features, own_sd
-from statorhom.diagnose.measured.feature import LOST, SINGLE, Feature
+from statorhom.diagnose.features.mode_features import ALONE, free_features, own_sd
+from statorhom.diagnose.measured.feature import LOST, SINGLE
 from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.diagnose.predicted.prediction import PredictedMode
 from statorhom.identify.residuals.model_error import ModelError
@@ -36,27 +36,17 @@ def test_their_frequency_is_less_certain() -> None:
     assert own_sd(ModelError(), KEY) > own_sd(ModelError(), (2, 0, 0)) + 0.8 * ALONE
 
 
-def of_a_doublet(split: float, part: float) -> Feature:
-    """The frequency of the single line that a table has of one, `part` of the way from its middle to an end."""
-    key, f = (2, 0, 0), 3000.0
-    mode = StatorMode(f, 2, 0, "radial", 1.0, 2, 0, 0)
-    predicted = {key: PredictedMode(key, mode, float(np.log(f)), split + 0j, 1e-3)}
-    row = MeasuredMode(0, "0", f * float(np.exp(part * split / 4)), order=2, axial=0, loss_factor=0.005)
-    table = MeasuredTest(0, "t", "free", (row,), False)
-    line, _ = free_features(table, (row,), (key,), predicted, {}, ModelError())
-    return line
-
-
 def test_a_single_line_of_a_parted_doublet_is_the_nearer_one() -> None:
     """In the middle between the two there is none."""
-    split = 0.08
+    key, split, f = (2, 0, 0), 0.08, 3000.0
+    predicted = {
+        key: PredictedMode(
+            key, StatorMode(f, 2, 0, "radial", 1.0, 2, 0, 0), float(np.log(f)), split + 0j, 1e-3
+        )
+    }
     for part, away in ((0.0, 1.0), (0.5, 0.5), (1.0, 0.0), (-1.0, 0.0), (1.2, 0.2)):
-        line = of_a_doublet(split, part)
+        row = MeasuredMode(0, "0", f * float(np.exp(part * split / 4)), order=2, axial=0, loss_factor=0.005)
+        line, _ = free_features(
+            MeasuredTest(0, "t", "free", (row,), False), (row,), (key,), predicted, {}, ModelError()
+        )
         assert abs(line.measured - line.predicted) == pytest.approx(away * split / 4, abs=1e-9)
-
-
-def test_a_single_line_is_known_no_better_than_the_split_is() -> None:
-    """A quarter of what a split of λ is uncertain by; a model pays for not knowing it."""
-    whole, parted = of_a_doublet(0.0, 0.0), of_a_doublet(0.08, 1.0)
-    assert parted.sd**2 - whole.sd**2 == pytest.approx((SPLIT_OWN / 4) ** 2 + (SPLIT_PART * 0.08 / 4) ** 2)
-    assert parted.doubt == pytest.approx(np.log(parted.sd / whole.sd))

@@ -193,7 +193,7 @@ def _mode_features(
     scattered = predicted.scattered * scatter.get(key[0], 0j)
     split = predicted.split + scattered if predicted.multiplicity == 2 else 0j
     if len(rows) == 1:
-        return _single(test, rows[0], predicted, split, own, shape)
+        return _single(test, rows[0], predicted, split, own)
     low, high = rows[0], rows[-1]
     labels = tuple(row.label for row in rows)
     pairing = _split_of(test, rows)
@@ -234,12 +234,7 @@ def _typical_split(test: MeasuredTest, doublets: Sequence[Sequence[MeasuredMode]
 
 
 def _single(
-    test: MeasuredTest,
-    row: MeasuredMode,
-    predicted: PredictedMode,
-    split: complex,
-    own: _Own,
-    shape: float,
+    test: MeasuredTest, row: MeasuredMode, predicted: PredictedMode, split: complex, own: _Own
 ) -> list[Feature]:
     """One line of a doublet: not resolved, or its other line was missed."""
     log_f, measured = predicted.log_f, log(row.frequency_hz)
@@ -248,10 +243,8 @@ def _single(
         return [_frequency(test, own_row, predicted, (measured, log_f), sd, own)]
     # where the effect parts the two lines, it is one of them, a quarter of the split of λ to either side of the mean:
     # the nearer one, for in the middle there is none
-    if abs(predicted.split) > (row.loss_factor or 0.01):
-        log_f += copysign(abs(predicted.split) / 4, measured - log_f)
-        # and it is known no better than the split is
-        own = own._replace(sd=hypot(own.sd, _split_sd(0.0, abs(predicted.split), shape) / 4))
+    away = abs(predicted.split) / 4 if abs(predicted.split) > (row.loss_factor or 0.01) else 0.0
+    log_f += copysign(away, measured - log_f)
     width = UNRESOLVED * (row.loss_factor or 0.01)
     # tables leave modes out, and know no angles
     most, parts = (3.0, 2) if test.recorded else (1.8, 1)
