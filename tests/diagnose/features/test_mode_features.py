@@ -83,6 +83,13 @@ def test_a_coarse_mesh_leaves_more_of_a_frequency_open_than_its_correction_says(
     assert coarse > 8 * fine
 
 
+def test_modes_with_more_node_planes_are_corrected_less_surely() -> None:
+    """Of thirteen stacks extrapolation left two and five times as much of two and three planes as of none."""
+    keys = [(2, planes, 0) for planes in range(4)]
+    none, one, two, three = (own_sd(ModelError(factors={key: 0.98}), key) for key in keys)
+    assert none == one and 1.7 < two / one < three / one < 4
+
+
 def test_a_mode_that_may_be_another_on_a_finer_mesh_says_as_little_as_they_lie_apart() -> None:
     key, factors = (3, 1, 1), {(3, 1, 1): 0.997}
     sure, unsure = (own_sd(ModelError(factors=factors, sds=sds), key) for sds in ({}, {key: 0.056}))
