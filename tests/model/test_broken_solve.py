@@ -4,7 +4,14 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 from small_stators import MATERIALS, stator_mesh
-from whole_changes import changed, partial_contact, scaled_mass, scaled_stiffness, whole_stator
+from whole_changes import (
+    changed,
+    graded_stiffness,
+    partial_contact,
+    scaled_mass,
+    scaled_stiffness,
+    whole_stator,
+)
 from whole_supports import WholeSurface, frequencies
 
 from statorhom.errors import SolverError
@@ -13,9 +20,10 @@ from statorhom.model.broken.attachments import footed_lump, lump, point_springs,
 from statorhom.model.broken.basis import symmetric_basis
 from statorhom.model.broken.cells import Sectors, cells
 from statorhom.model.broken.change import PieceChange
+from statorhom.model.broken.heights import stiffness_by_height
 from statorhom.model.broken.interface import contact, split
 from statorhom.model.broken.layers import radial_layers
-from statorhom.model.broken.pieces import elements_in, stiffness_pieces
+from statorhom.model.broken.pieces import elements_in
 from statorhom.model.broken.solve import solve_broken
 from statorhom.model.broken.variations import arc, gradient, region_mass, region_stiffness, strip, wave
 from statorhom.model.supported_modes import solve_supported
@@ -103,9 +111,13 @@ def pressed(w):
     """G_rz falls towards the upper end."""
     steel = MATERIALS["lamination"]
     soft = changed(steel, c44=0.3 * steel.hooke.matrix[3, 3], c55=0.3 * steel.hooke.matrix[4, 4])
-    hooke = {"lamination": hooke_coefficients(soft.hooke) - hooke_coefficients(steel.hooke)}
-    change = gradient(w.half, stiffness_pieces(w.half, hooke), LAMINATION, lambda z: z / w.half.length)
-    return [change], w.K + scaled_stiffness(w, LAMINATION, hooke, change.weights), w.M
+    surplus = hooke_coefficients(soft.hooke) - hooke_coefficients(steel.hooke)
+
+    def share(z):
+        return z / w.half.length
+
+    change = gradient(stiffness_by_height(w.half, "lamination", surplus), w.half.slots, share)
+    return [change], w.K + graded_stiffness(w, "lamination", surplus, share), w.M
 
 
 def loosened(ratio):

@@ -1,6 +1,6 @@
 """What breaks a stator's symmetry, assembled on the whole stator's mesh without any use of its symmetry."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -34,6 +34,17 @@ def scaled_stiffness(whole, regions, hooke, weights):
         return sum(c * b for c, b in zip(hooke[region], stiffness_blocks(geometry), strict=True))
 
     return _scaled(whole.mesh, regions, weights, blocks)
+
+
+def graded_stiffness(whole, region, hooke, along):
+    """Stiffness of a region's elements times a weight that depends on the height of every Gauss point (m)."""
+    matrices = np.zeros((len(whole.mesh.elements), 60, 60))
+    for part, geometry in chunks(whole.mesh, whole.mesh.regions.index(region)):
+        z = whole.mesh.nodes[whole.mesh.elements[part], 2] @ gauss_table().values.T
+        graded = replace(geometry, volume=geometry.volume * along(z))
+        matrices[part] = sum(c * b for c, b in zip(hooke, stiffness_blocks(graded), strict=True))
+    pattern = block_pattern(whole.mesh.elements, len(whole.mesh.nodes))
+    return pattern.matrix(pattern.gather(node_blocks(matrices)))
 
 
 def scaled_mass(whole, regions, materials, weights):

@@ -13,6 +13,7 @@ from statorhom.model.affine import Material, Materials, hooke_coefficients
 from statorhom.model.broken.attachments import footed_lump, point_springs
 from statorhom.model.broken.cells import Sectors, cells
 from statorhom.model.broken.change import Attachment, Change, PieceChange
+from statorhom.model.broken.heights import stiffness_by_height
 from statorhom.model.broken.interface import Contact
 from statorhom.model.broken.layers import radial_layers
 from statorhom.model.broken.pieces import Pieces, elements_in
@@ -40,8 +41,8 @@ class Ground(Protocol):
         """Joint that is not rigid."""
         ...
 
-    def pieces(self, region: str, material: Material | None = None) -> Pieces:
-        """Stiffness of a region's elements; with a material, what changing to it adds."""
+    def pieces(self, region: str) -> Pieces:
+        """Stiffness of a region's elements."""
         ...
 
     def masses(self, region: str) -> Pieces:
@@ -119,14 +120,16 @@ class Strip:
         mean = hooke_coefficients(ground.materials["lamination"].hooke)
         found = []
         for material, share in slope.parts(ground):
-            one, heights = self._of(ground, hooke_coefficients(material.hooke) - mean)
+            one, heights = self._of(ground, hooke_coefficients(material.hooke) - mean, by_height=True)
             found.append(replace(one, weights=one.weights * share(heights)[:, None]))
         return tuple(found)
 
-    def _of(self, ground: Ground, entries: np.ndarray) -> tuple[PieceChange, np.ndarray]:
+    def _of(
+        self, ground: Ground, entries: np.ndarray, *, by_height: bool = False
+    ) -> tuple[PieceChange, np.ndarray]:
         """Of a material or of a change of it, and the heights of its pieces."""
         inner = ground.mesh.outer_radius - self.depth
-        core = radial_layers(ground.mesh, "lamination", entries, STRIP_LAYERS, inner)
+        core = radial_layers(ground.mesh, "lamination", entries, STRIP_LAYERS, inner, by_height=by_height)
         found = strip(core, self.angle, width=self.width, depth=self.depth, ratio=self.ratio)
         return found, core.place.z.mean(axis=1)
 
@@ -160,10 +163,13 @@ class AxialSlope:
 
     def changes(self, ground: Ground) -> tuple[Change, ...]:
         """On a mesh."""
-        return tuple(
-            gradient(ground.mesh, ground.pieces("lamination", material), ("lamination",), share)
-            for material, share in self.parts(ground)
-        )
+        mesh, own = ground.mesh, hooke_coefficients(ground.materials["lamination"].hooke)
+
+        def change(material: Material, share: Callable[[np.ndarray], np.ndarray]) -> PieceChange:
+            surplus = hooke_coefficients(material.hooke) - own
+            return gradient(stiffness_by_height(mesh, "lamination", surplus), mesh.slots, share)
+
+        return tuple(change(material, share) for material, share in self.parts(ground))
 
     def parts(self, ground: Ground) -> Iterator[tuple[Material, Callable[[np.ndarray], np.ndarray]]]:
         """Materials other than the middle's, and how much of each there is at a height."""

@@ -60,16 +60,12 @@ class StageGround:
         joint = None if self.contact is None else self.contact.matrix
         return symmetric_basis(self.model, self.materials, self.highest_hz, margin=MARGIN, contact=joint)
 
-    def pieces(self, region: str, material: Material | None = None) -> Pieces:
-        """Stiffness of a region's elements; with a material, what changing to it adds."""
-        if material is None and region in self._own:
-            return self._own[region]
-        own = hooke_coefficients(self.materials[region].hooke)
-        wanted = own if material is None else hooke_coefficients(material.hooke) - own
-        found = stiffness_pieces(self.mesh, {region: wanted})
-        if material is None:
-            self._own[region] = found
-        return found
+    def pieces(self, region: str) -> Pieces:
+        """Stiffness of a region's elements."""
+        if region not in self._own:
+            own = hooke_coefficients(self.materials[region].hooke)
+            self._own[region] = stiffness_pieces(self.mesh, {region: own})
+        return self._own[region]
 
     def masses(self, region: str) -> Pieces:
         """Mass of a region's elements."""

@@ -182,6 +182,12 @@ def stiffness_blocks(g: ElementGeometry, axes: np.ndarray | None = None) -> Iter
         yield block if i == j else block + block.transpose(0, 2, 1)
 
 
+def stiffness_of(g: ElementGeometry, hooke: np.ndarray) -> np.ndarray:
+    """Element stiffness of nine Hooke entries, or of their change, (e, 60, 60)."""
+    terms = zip(hooke, stiffness_blocks(g), strict=True)
+    return np.asarray(sum(factor * block for factor, block in terms))
+
+
 def elastic_blocks(g: ElementGeometry, hooke: np.ndarray) -> np.ndarray:
     """Element stiffness of a material with any Hooke's matrix (6, 6), (e, 60, 60)."""
     strain = strain_matrix(g)

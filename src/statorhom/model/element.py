@@ -15,6 +15,7 @@ _CORNERS = np.array(
 )
 _EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 5), (2, 6), (3, 7), (4, 5), (5, 6), (6, 7), (7, 4)]
 REFERENCE_NODES = np.vstack([_CORNERS, [(_CORNERS[a] + _CORNERS[b]) / 2 for a, b in _EDGES]])
+ROUNDED = 9  # decimals of a reference coordinate
 ORDER = 5  # of the polynomials that Gauss points integrate exactly, unless a mesh asks for another one
 
 
@@ -24,14 +25,23 @@ class ShapeTable:
 
     Parameters
     ----------
+    points : (q, 3) reference coordinates.
     values : (q, 20).
     gradients : (q, 20, 3), with respect to the reference coordinates.
     weights : (q,) quadrature weights.
     """
 
+    points: np.ndarray
     values: np.ndarray
     gradients: np.ndarray
     weights: np.ndarray
+
+    def by_height(self) -> tuple[ShapeTable, ...]:
+        """The points of every height apart, by the third coordinate, which is along the axis of extruded meshes."""
+        height = self.points[:, 2].round(ROUNDED)
+        parts = (np.flatnonzero(height == one) for one in np.unique(height))
+        fields = (self.points, self.values, self.gradients, self.weights)
+        return tuple(ShapeTable(*(field[part] for field in fields)) for part in parts)
 
 
 def shape_functions(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -73,6 +83,6 @@ def layer_table(axis: int, low: float, high: float, order: int = ORDER) -> Shape
 
 def _table(points: np.ndarray, weights: np.ndarray) -> ShapeTable:
     values, gradients = shape_functions(points)
-    for array in (values, gradients, weights):
+    for array in (points, values, gradients, weights):
         array.setflags(write=False)
-    return ShapeTable(values, gradients, weights)
+    return ShapeTable(points, values, gradients, weights)

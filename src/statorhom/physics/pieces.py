@@ -9,36 +9,38 @@ import numpy as np
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Material, hooke_coefficients
+from statorhom.model.broken.heights import Heights, stiffness_by_height
 from statorhom.model.broken.layers import Layers, radial_layers
 from statorhom.model.broken.pieces import Pieces, stiffness_pieces
 from statorhom.model.kept import Kept
 from statorhom.study.regions import core_region
 
-ALL = (True,) * 9
 MOST = 12  # sets of pieces that are kept
 LAYERS = 4  # an element, where the depth of a feature counts
 _LATEST = Kept(MOST)
-_Parts = TypeVar("_Parts", Pieces, Layers)
+_Parts = TypeVar("_Parts", Pieces, Layers, Heights)
 
 
-def region_pieces(
-    mesh: HalfPitchMesh, region: str, material: Material, entries: tuple[bool, ...] = ALL
-) -> Pieces:
+def region_pieces(mesh: HalfPitchMesh, region: str, material: Material) -> Pieces:
     """Pieces of a region's elements.
 
     Parameters
     ----------
     mesh : of the half pitch.
     region, material : whose stiffness.
-    entries : which of the nine Hooke entries (`statorhom.model.assembly.HOOKE_ENTRIES`) count.
     """
-    return hooke_pieces(mesh, region, np.where(entries, hooke_coefficients(material.hooke), 0.0))
-
-
-def hooke_pieces(mesh: HalfPitchMesh, region: str, coefficients: np.ndarray) -> Pieces:
-    """Pieces of a region's elements of which the nine Hooke entries are given, whether of a material or of a change."""
+    coefficients = hooke_coefficients(material.hooke)
     key = (id(mesh), region, *coefficients.tolist())
     return _kept(mesh, key, lambda: stiffness_pieces(mesh, {region: coefficients}))
+
+
+def pieces_by_height(mesh: HalfPitchMesh, region: str, coefficients: np.ndarray) -> Heights:
+    """The same of nine Hooke entries or of their change, Gauss points of every height apart.
+
+    For what varies along the axis.
+    """
+    key = (id(mesh), "by height", region, *coefficients.tolist())
+    return _kept(mesh, key, lambda: stiffness_by_height(mesh, region, coefficients))
 
 
 def yoke_layers(mesh: HalfPitchMesh, material: Material, inner: float) -> Layers:

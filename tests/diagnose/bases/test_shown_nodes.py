@@ -13,9 +13,11 @@ from statorhom.diagnose.features.assignment import sought
 from statorhom.diagnose.measured.measured_test import MeasuredTest
 from statorhom.diagnose.predicted.prediction import PredictedMode
 from statorhom.diagnose.stages.stage_model import StageModel
+from statorhom.model.affine import hooke_coefficients
 from statorhom.model.broken.change import Change
+from statorhom.model.broken.heights import stiffness_by_height
 from statorhom.model.broken.solve import BrokenModes, solve_broken
-from statorhom.model.broken.variations import gradient, region_stiffness
+from statorhom.model.broken.variations import gradient
 from statorhom.model.radial_profile import node_planes
 from statorhom.model.stator_mode import StatorMode
 from statorhom.model.surface import surface_points
@@ -31,9 +33,9 @@ def stack() -> StageModel:
 
 
 def uneven(stage: StageModel, slope: float) -> tuple[Change, ...]:
-    pieces = region_stiffness(stage.model.mesh, stage.reference, ("lamination",))
-    length = stage.model.mesh.length
-    return (gradient(stage.model.mesh, pieces, ("lamination",), lambda z: slope * (2 * z / length - 1.0)),)
+    mesh = stage.model.mesh
+    parts = stiffness_by_height(mesh, "lamination", hooke_coefficients(stage.reference["lamination"].hooke))
+    return (gradient(parts, mesh.slots, lambda z: slope * (2 * z / mesh.length - 1.0)),)
 
 
 def counted(stage: StageModel, modes: BrokenModes, number: int, order: int) -> int:

@@ -27,8 +27,8 @@ from statorhom.study.modal_table import MeasuredMode
 
 # of frequencies: floor, part of the mesh's correction, and what its square adds where the mesh is too coarse for that
 OWN, OWN_PART, OWN_SQUARE = 5e-4, 0.05, 3.0
-# of the correction, for every node plane along the axis beyond the first: four and six cells in the core show how a mode
-# with two or three is corrected less surely, and recordings are as a finer mesh would have them
+# of the correction, for every node plane along the axis beyond the first: four and six cells in the core show less
+# surely how modes with two or three are corrected
 PLANES_PART = 0.1
 ALONE = 5e-3  # of a mode that only an arc of lost contact has: no finer mesh has shown it
 # of either part of a stiffness wave 2r in the core: sheets, punching and welding vary that much, so that one of 2e-3 is

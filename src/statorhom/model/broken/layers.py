@@ -13,10 +13,11 @@ from functools import cache
 import numpy as np
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
-from statorhom.model.assembly import CHUNK, element_geometry, stiffness_blocks
+from statorhom.model.assembly import CHUNK, element_geometry, stiffness_of
 from statorhom.model.broken.cells import Cells, cells
+from statorhom.model.broken.heights import heights_of
 from statorhom.model.broken.pieces import Pieces, element_dofs, elements_in
-from statorhom.model.element import REFERENCE_NODES, ShapeTable, layer_table
+from statorhom.model.element import REFERENCE_NODES, ShapeTable, gauss_table, layer_table
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +37,13 @@ class Layers:
 
 
 def radial_layers(
-    mesh: HalfPitchMesh, region: str, hooke: np.ndarray, count: int, inner: float = 0.0
+    mesh: HalfPitchMesh,
+    region: str,
+    hooke: np.ndarray,
+    count: int,
+    inner: float = 0.0,
+    *,
+    by_height: bool = False,
 ) -> Layers:
     """Elements of a region in layers of equal thickness.
 
@@ -45,22 +52,27 @@ def radial_layers(
     hooke : nine Hooke entries (Pa).
     count : layers an element.
     inner : radius (m) within which elements are left out.
+    by_height : Gauss points of every height of a layer apart, for what varies along the axis too.
     """
     numbers = elements_in(mesh, (region,))
     numbers = numbers[cells(mesh, numbers).radius[:, 1] > inner]
     nodes = mesh.nodes[mesh.elements[numbers]]
     rise = _rise(nodes)
     axis = np.argmax(np.abs(rise), axis=1)
-    matrices = np.empty((len(numbers), count, 60, 60))
+    tables = [[_tables(along, layer, count, by_height) for layer in range(count)] for along in range(3)]
+    parts = count * len(tables[0][0])
+    matrices = np.empty((len(numbers), count, parts // count, 60, 60))
     for along in range(3):
         for first in range(0, len(places := np.flatnonzero(axis == along)), CHUNK):
             part = places[first : first + CHUNK]
-            for layer in range(count):
-                matrices[part, layer] = _stiffness(nodes[part], hooke, _table(along, layer, count))
-    dofs = np.repeat(element_dofs(mesh, numbers), count, axis=0)
+            for layer, k in np.ndindex(matrices.shape[1:3]):
+                geometry = element_geometry(nodes[part], tables[along][layer][k])
+                matrices[part, layer, k] = stiffness_of(geometry, hooke)
+    dofs = np.repeat(element_dofs(mesh, numbers), parts, axis=0)
     pieces = Pieces(dofs, matrices.reshape(-1, 60, 60), 3 * len(mesh.nodes))
     upwards = rise[np.arange(len(numbers)), axis] > 0
-    return Layers(pieces, _layered(cells(mesh, numbers), upwards, count), mesh.outer_radius)
+    place = _layered(cells(mesh, numbers), upwards, count)
+    return Layers(pieces, _at_heights(place, nodes) if by_height else place, mesh.outer_radius)
 
 
 def _rise(nodes: np.ndarray) -> np.ndarray:
@@ -77,13 +89,9 @@ def _rise(nodes: np.ndarray) -> np.ndarray:
 
 
 @cache
-def _table(axis: int, layer: int, count: int) -> ShapeTable:
-    return layer_table(axis, layer / count, (layer + 1) / count)
-
-
-def _stiffness(nodes: np.ndarray, hooke: np.ndarray, table: ShapeTable) -> np.ndarray:
-    terms = zip(hooke, stiffness_blocks(element_geometry(nodes, table)), strict=True)
-    return np.asarray(sum(factor * block for factor, block in terms))
+def _tables(axis: int, layer: int, count: int, by_height: bool) -> tuple[ShapeTable, ...]:
+    table = layer_table(axis, layer / count, (layer + 1) / count)
+    return table.by_height() if by_height else (table,)
 
 
 def _layered(place: Cells, upwards: np.ndarray, count: int) -> Cells:
@@ -95,3 +103,12 @@ def _layered(place: Cells, upwards: np.ndarray, count: int) -> Cells:
     radius = np.stack([low[:, None] + begin * thick, low[:, None] + (begin + 1.0 / count) * thick], axis=-1)
     angle, z = (np.repeat(extent, count, axis=0) for extent in (place.angle, place.z))
     return replace(place, angle=angle, radius=radius.reshape(-1, 2), z=z)
+
+
+def _at_heights(place: Cells, nodes: np.ndarray) -> Cells:
+    """Extents of layers whose Gauss points of every height are apart."""
+    heights = heights_of(nodes, gauss_table().by_height())
+    layers = len(place.z) // len(nodes)
+    z = np.repeat(heights, layers, axis=0).reshape(-1)
+    angle, radius = (np.repeat(extent, heights.shape[1], axis=0) for extent in (place.angle, place.radius))
+    return replace(place, angle=angle, radius=radius, z=np.stack([z, z], axis=-1))

@@ -9,7 +9,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh, HexMesh
-from statorhom.model.assembly import CHUNK, ElementGeometry, element_geometry, mass_blocks, stiffness_blocks
+from statorhom.model.assembly import CHUNK, ElementGeometry, element_geometry, mass_blocks, stiffness_of
 from statorhom.model.element import gauss_table
 
 
@@ -74,8 +74,7 @@ def stiffness_pieces(mesh: HalfPitchMesh, hooke: Mapping[str, np.ndarray]) -> Pi
     """
 
     def blocks(region: str, geometry: ElementGeometry) -> np.ndarray:
-        terms = zip(hooke[region], stiffness_blocks(geometry), strict=True)
-        return np.asarray(sum(factor * block for factor, block in terms))
+        return stiffness_of(geometry, hooke[region])
 
     return _pieces(mesh, elements_in(mesh, hooke), blocks)
 

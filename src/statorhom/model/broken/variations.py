@@ -14,6 +14,7 @@ from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Materials, hooke_coefficients
 from statorhom.model.broken.cells import Sectors, cells
 from statorhom.model.broken.change import PieceChange
+from statorhom.model.broken.heights import Heights
 from statorhom.model.broken.layers import Layers
 from statorhom.model.broken.pieces import Pieces, elements_in, mass_pieces, stiffness_pieces
 from statorhom.study.regions import core_region
@@ -62,19 +63,16 @@ def arc(pieces: Pieces, place: Sectors, start: float, end: float, ratio: float) 
     return PieceChange(pieces, None, (ratio - 1.0) * place.share_of_arc(start, end))
 
 
-def gradient(
-    mesh: HalfPitchMesh, pieces: Pieces, regions: tuple[str, ...], along: Callable[[np.ndarray], np.ndarray]
-) -> PieceChange:
+def gradient(parts: Heights, slots: int, along: Callable[[np.ndarray], np.ndarray]) -> PieceChange:
     """A stiffness that varies along the axis.
 
     Parameters
     ----------
-    pieces : of the elements of `regions` (`stiffness_pieces`): what a weight of one adds.
-    along : weight at heights z (m), taken in the middle of every element.
+    parts : of the elements, by height (`stiffness_by_height`): what a weight of one adds.
+    slots : of the stator.
+    along : weight at heights z (m).
     """
-    place = cells(mesh, elements_in(mesh, regions))
-    weights = along(place.z.mean(axis=1))
-    return PieceChange(pieces, None, np.repeat(weights[:, None], 2 * mesh.slots, axis=1))
+    return PieceChange(parts.pieces, None, np.repeat(along(parts.z)[:, None], 2 * slots, axis=1))
 
 
 def region_stiffness(mesh: HalfPitchMesh, materials: Materials, regions: tuple[str, ...]) -> Pieces:

@@ -10,7 +10,7 @@ import numpy as np
 from statorhom.errors import MaterialError
 from statorhom.materials.hooke import Hooke
 from statorhom.mesh.hex_mesh import HalfPitchMesh
-from statorhom.model.affine import Materials
+from statorhom.model.affine import Materials, hooke_coefficients
 from statorhom.model.assembly import HOOKE_ENTRIES
 from statorhom.model.broken.change import Change
 from statorhom.model.broken.variations import gradient
@@ -18,7 +18,7 @@ from statorhom.physics.action import Action, Training
 from statorhom.physics.candidate import Candidate
 from statorhom.physics.effect import Confusion, Effect
 from statorhom.physics.parameter import EffectParameter
-from statorhom.physics.pieces import hooke_pieces, region_pieces
+from statorhom.physics.pieces import pieces_by_height
 from statorhom.physics.ring import ring_of
 from statorhom.study.regions import core_region
 from statorhom.study.study import StudyFiles
@@ -56,10 +56,9 @@ class StackPressureGradient(Effect):
                 return slope * (2 * z / length - 1.0)
 
             along, weight = axial_modulus(material.hooke, surplus)
-            normal = hooke_pieces(mesh, core, along)
-            shear = region_pieces(mesh, core, material, SHEAR)
-            where = (core,)
-            return gradient(mesh, normal, where, weight), gradient(mesh, shear, where, surplus)
+            sheared = np.where(SHEAR, hooke_coefficients(material.hooke), 0.0)
+            normal, shear = (pieces_by_height(mesh, core, entries) for entries in (along, sheared))
+            return gradient(normal, mesh.slots, weight), gradient(shear, mesh.slots, surplus)
 
         def examples(mesh: HalfPitchMesh, materials: Materials) -> tuple[tuple[Change, ...], ...]:
             return tuple(varied(mesh, materials, ratio) for ratio in TRAINED)
