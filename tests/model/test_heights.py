@@ -1,4 +1,4 @@
-"""Stiffness by height against whole elements, and what a gradient tilts against a mesh with more cells along the axis."""
+"""Stiffness by height against whole elements, and what a gradient tilts against more cells along the axis."""
 
 from dataclasses import replace
 

@@ -20,12 +20,12 @@ OVER_NOTHING, OVER_OTHERS = 5.0, 3.0  # of log evidence
 OVER_ADEQUATE, FAR_OVER_OTHERS = 8.0, 5.0
 # The same where held-out modes do not confirm it at all; what is so far ahead is beyond doubt.
 FAR_OVER_NOTHING = 20.0
-# What is asked over something in no library: so much per root of the share that is left of the error in unseen modes,
-# and less by this power of e with the chance of what is left of the rows. What looks like the truth leaves more of
-# either: of 19 right and 11 false explanations of development tables that were names but for this a logistic
-# regression gave 0.9, -0.4 and 7.9 as powers of lead, share and chance. Standard deviations hold all that mesh, scatter
-# and foot may do, so that right ones leave less than these say. Of the share no more counts than `MOST_LEFT`: errors
-# that hardly fall contradict elsewhere.
+# What is asked over something in no library: so much per share that is left of the error in unseen modes, and less by
+# this power of e with the chance of what is left of the rows. What looks like the truth leaves more of either: of 30
+# and 39 explanations of development tables, right and false, logistic regressions gave powers of lead, share and chance
+# of 0.9, -0.4 and 7.9, and of 1.0, -1.6 and 4.6. Standard deviations hold all that mesh, scatter and foot may do, so
+# that right ones leave less than these say. Of the share no more counts than `MOST_LEFT`: errors that hardly fall
+# contradict elsewhere.
 PER_SHARE, BY_CHANCE = 4500.0, 8.5
 MOST_LEFT = 0.5
 NEAR_RIVAL = 10.0  # of log evidence: up to which a rival and the best are compared in models of their own
@@ -138,7 +138,7 @@ class Evidence:
     def least_over_discrepancy(self) -> float:
         """Log evidence that is asked for: the more, the more is left of what was seen and of what was not."""
         left = MOST_LEFT if self.held_out is None else min(self.held_out.share_left, MOST_LEFT)
-        asked = PER_SHARE * np.sqrt(left) * np.exp(-BY_CHANCE * self.chance_of_rows)
+        asked = PER_SHARE * left * np.exp(-BY_CHANCE * self.chance_of_rows)
         return float(np.clip(asked, OVER_OTHERS, FAR_OVER_NOTHING))
 
     @property

@@ -117,9 +117,14 @@ def _applied(
     if len(coupled.statics):
         columns, units = coupled.statics.waves
         motion += columns.in_copies(dofs, units @ x[size:])
-    return np.stack(
-        [part.matrix(w) @ u if np.any(w) else 0 * u for w, u in zip(weights.T, motion, strict=True)]
-    )
+    forces = np.zeros_like(motion)
+    # what varies along the axis alone is the same matrix in all copies
+    patterns, member = np.unique(weights, axis=1, return_inverse=True)
+    for i in np.flatnonzero(np.any(patterns != 0.0, axis=0)):
+        matrix = part.matrix(patterns[:, i])
+        for copy in np.flatnonzero(member.ravel() == i):
+            forces[copy] = matrix @ motion[copy]
+    return forces
 
 
 def _folded(problem: ProblemBasis, forces: Mapping[bool, np.ndarray], sine: bool) -> np.ndarray:
