@@ -22,7 +22,7 @@ OVER_ADEQUATE, FAR_OVER_OTHERS = 8.0, 5.0
 FAR_OVER_NOTHING = 20.0
 # What is asked over something in no library: so much per share that is left of the error in unseen modes, and less by
 # this power of e with the chance of what is left of the rows. What looks like the truth leaves more of either: of 30
-# and 39 explanations of development tables, right and false, logistic regressions gave powers of lead, share and chance
+# and 36 explanations of development tables, right and false, logistic regressions gave powers of lead, share and chance
 # of 0.9, -0.4 and 7.9, and of 1.0, -1.6 and 4.6. Standard deviations hold all that mesh, scatter and foot may do, so
 # that right ones leave less than these say. Of the share no more counts than `MOST_LEFT`: errors that hardly fall
 # contradict elsewhere.
