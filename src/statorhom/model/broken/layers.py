@@ -59,16 +59,8 @@ def radial_layers(
     nodes = mesh.nodes[mesh.elements[numbers]]
     rise = _rise(nodes)
     axis = np.argmax(np.abs(rise), axis=1)
-    tables = [[_tables(along, layer, count, by_height) for layer in range(count)] for along in range(3)]
-    parts = count * len(tables[0][0])
-    matrices = np.empty((len(numbers), count, parts // count, 60, 60))
-    for along in range(3):
-        for first in range(0, len(places := np.flatnonzero(axis == along)), CHUNK):
-            part = places[first : first + CHUNK]
-            for layer, k in np.ndindex(matrices.shape[1:3]):
-                geometry = element_geometry(nodes[part], tables[along][layer][k])
-                matrices[part, layer, k] = stiffness_of(geometry, hooke)
-    dofs = np.repeat(element_dofs(mesh, numbers), parts, axis=0)
+    matrices = _matrices(nodes, axis, hooke, count, by_height=by_height)
+    dofs = np.repeat(element_dofs(mesh, numbers), matrices.shape[1], axis=0)
     pieces = Pieces(dofs, matrices.reshape(-1, 60, 60), 3 * len(mesh.nodes))
     upwards = rise[np.arange(len(numbers)), axis] > 0
     place = _layered(cells(mesh, numbers), upwards, count)
@@ -88,10 +80,25 @@ def _rise(nodes: np.ndarray) -> np.ndarray:
     )
 
 
+def _matrices(
+    nodes: np.ndarray, axis: np.ndarray, hooke: np.ndarray, count: int, *, by_height: bool
+) -> np.ndarray:
+    """Stiffness of all parts of elements, (e, p, 60, 60), one layer after the other; `axis`: (e,) the radial one."""
+    tables = [_tables(along, count, by_height) for along in range(3)]
+    found = np.empty((len(nodes), len(tables[0]), 60, 60))
+    for along, own in enumerate(tables):
+        places = np.flatnonzero(axis == along)
+        for first in range(0, len(places), CHUNK):
+            part = places[first : first + CHUNK]
+            for k, table in enumerate(own):
+                found[part, k] = stiffness_of(element_geometry(nodes[part], table), hooke)
+    return found
+
+
 @cache
-def _tables(axis: int, layer: int, count: int, by_height: bool) -> tuple[ShapeTable, ...]:
-    table = layer_table(axis, layer / count, (layer + 1) / count)
-    return table.by_height() if by_height else (table,)
+def _tables(axis: int, count: int, by_height: bool) -> tuple[ShapeTable, ...]:
+    layers = [layer_table(axis, layer / count, (layer + 1) / count) for layer in range(count)]
+    return tuple(part for layer in layers for part in (layer.by_height() if by_height else (layer,)))
 
 
 def _layered(place: Cells, upwards: np.ndarray, count: int) -> Cells:
