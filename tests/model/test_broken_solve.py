@@ -20,7 +20,6 @@ from statorhom.model.broken.attachments import footed_lump, lump, point_springs,
 from statorhom.model.broken.basis import symmetric_basis
 from statorhom.model.broken.cells import Sectors, cells
 from statorhom.model.broken.change import PieceChange
-from statorhom.model.broken.heights import stiffness_by_height
 from statorhom.model.broken.interface import contact, split
 from statorhom.model.broken.layers import radial_layers
 from statorhom.model.broken.pieces import elements_in
@@ -116,7 +115,7 @@ def pressed(w):
     def share(z):
         return z / w.half.length
 
-    change = gradient(stiffness_by_height(w.half, "lamination", surplus), w.half.slots, share)
+    change = gradient(radial_layers(w.half, "lamination", surplus, 1, by_height=True), share)
     return [change], w.K + graded_stiffness(w, "lamination", surplus, share), w.M
 
 

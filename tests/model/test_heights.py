@@ -9,7 +9,6 @@ from small_stators import MATERIALS, ring_mesh, stator_mesh
 from statorhom.model.affine import assemble, hooke_coefficients
 from statorhom.model.assembly import HOOKE_ENTRIES
 from statorhom.model.broken.basis import symmetric_basis
-from statorhom.model.broken.heights import stiffness_by_height
 from statorhom.model.broken.layers import radial_layers
 from statorhom.model.broken.pieces import stiffness_pieces
 from statorhom.model.broken.solve import solve_broken
@@ -23,10 +22,10 @@ CORE = hooke_coefficients(MATERIALS["lamination"].hooke)
 def test_heights_make_up_their_elements():
     mesh = stator_mesh(6)
     whole = stiffness_pieces(mesh, {"lamination": CORE})
-    parts = stiffness_by_height(mesh, "lamination", CORE)
+    parts = radial_layers(mesh, "lamination", CORE, 1, by_height=True)
     together = parts.pieces.matrices.reshape(len(whole), 3, 60, 60).sum(axis=1)
     np.testing.assert_allclose(together, whole.matrices, rtol=0, atol=1e-12 * np.abs(whole.matrices).max())
-    z = parts.z.reshape(len(whole), 3)
+    z = parts.place.z.mean(axis=1).reshape(len(whole), 3)
     assert np.all(np.diff(z, axis=1) > 0) and z.min() > 0.0 and z.max() < mesh.length
 
 
@@ -51,10 +50,11 @@ def tilt(axial: int, *, whole_cells: bool = False) -> float:
     mesh = ring_mesh(120.0, 96.0, 240.0, radial=1, axial=axial, sectors=8)
     model = assemble(mesh)
     sheared = np.where([entry in ((3, 3), (4, 4)) for entry in HOOKE_ENTRIES], CORE, 0.0)
-    parts = stiffness_by_height(mesh, "lamination", sheared)
-    middle = np.repeat(parts.z.reshape(-1, 3).mean(axis=1), 3)
-    used = replace(parts, z=middle) if whole_cells else parts
-    change = gradient(used, mesh.slots, lambda z: 0.6 * (2 * z / mesh.length - 1.0))
+    parts = radial_layers(mesh, "lamination", sheared, 1, by_height=True)
+    middle = np.repeat(parts.place.z.mean(axis=1).reshape(-1, 3).mean(axis=1), 3)
+    flat = replace(parts, place=replace(parts.place, z=np.stack([middle, middle], axis=-1)))
+    used = flat if whole_cells else parts
+    change = gradient(used, lambda z: 0.6 * (2 * z / mesh.length - 1.0))
     modes = solve_broken(symmetric_basis(model, MATERIALS, TOP), [change])
     angles = np.linspace(0.0, np.pi, 7)
     ends = [surface_points(mesh, angles, np.full(7, z)) for z in (0.0, mesh.length)]

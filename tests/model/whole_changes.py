@@ -43,8 +43,7 @@ def graded_stiffness(whole, region, hooke, along):
         z = whole.mesh.nodes[whole.mesh.elements[part], 2] @ gauss_table().values.T
         graded = replace(geometry, volume=geometry.volume * along(z))
         matrices[part] = sum(c * b for c, b in zip(hooke, stiffness_blocks(graded), strict=True))
-    pattern = block_pattern(whole.mesh.elements, len(whole.mesh.nodes))
-    return pattern.matrix(pattern.gather(node_blocks(matrices)))
+    return _assembled(whole.mesh, matrices)
 
 
 def scaled_mass(whole, regions, materials, weights):
@@ -63,6 +62,10 @@ def _scaled(mesh, regions, weights, blocks):
     for i in numbers:
         for part, geometry in chunks(mesh, i):
             matrices[part] = factor[part][:, None, None] * blocks(mesh.regions[i], geometry)
+    return _assembled(mesh, matrices)
+
+
+def _assembled(mesh, matrices):
     pattern = block_pattern(mesh.elements, len(mesh.nodes))
     return pattern.matrix(pattern.gather(node_blocks(matrices)))
 

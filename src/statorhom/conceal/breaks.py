@@ -13,7 +13,6 @@ from statorhom.model.affine import Material, Materials, hooke_coefficients
 from statorhom.model.broken.attachments import footed_lump, point_springs
 from statorhom.model.broken.cells import Sectors, cells
 from statorhom.model.broken.change import Attachment, Change, PieceChange
-from statorhom.model.broken.heights import stiffness_by_height
 from statorhom.model.broken.interface import Contact
 from statorhom.model.broken.layers import radial_layers
 from statorhom.model.broken.pieces import Pieces, elements_in
@@ -117,10 +116,9 @@ class Strip:
 
         Without this the soft end of a soft strip would have no stiffness left, or less than none.
         """
-        mean = hooke_coefficients(ground.materials["lamination"].hooke)
         found = []
-        for material, share in slope.parts(ground):
-            one, heights = self._of(ground, hooke_coefficients(material.hooke) - mean, by_height=True)
+        for surplus, share in slope.parts(ground):
+            one, heights = self._of(ground, surplus, by_height=True)
             found.append(replace(one, weights=one.weights * share(heights)[:, None]))
         return tuple(found)
 
@@ -163,21 +161,19 @@ class AxialSlope:
 
     def changes(self, ground: Ground) -> tuple[Change, ...]:
         """On a mesh."""
-        mesh, own = ground.mesh, hooke_coefficients(ground.materials["lamination"].hooke)
+        return tuple(
+            gradient(radial_layers(ground.mesh, "lamination", surplus, 1, by_height=True), share)
+            for surplus, share in self.parts(ground)
+        )
 
-        def change(material: Material, share: Callable[[np.ndarray], np.ndarray]) -> PieceChange:
-            surplus = hooke_coefficients(material.hooke) - own
-            return gradient(stiffness_by_height(mesh, "lamination", surplus), mesh.slots, share)
-
-        return tuple(change(material, share) for material, share in self.parts(ground))
-
-    def parts(self, ground: Ground) -> Iterator[tuple[Material, Callable[[np.ndarray], np.ndarray]]]:
-        """Materials other than the middle's, and how much of each there is at a height."""
+    def parts(self, ground: Ground) -> Iterator[tuple[np.ndarray, Callable[[np.ndarray], np.ndarray]]]:
+        """What materials beside the middle's add to its Hooke entries, and how much of each there is at a height."""
+        own = hooke_coefficients(ground.materials["lamination"].hooke)
         count = len(self.materials)
         heights = np.linspace(0.0, ground.mesh.length, count)
         for k, material in enumerate(self.materials):
             if k != count // 2:
-                yield material, _share(heights, k)
+                yield hooke_coefficients(material.hooke) - own, _share(heights, k)
 
 
 def _share(heights: np.ndarray, number: int) -> Callable[[np.ndarray], np.ndarray]:

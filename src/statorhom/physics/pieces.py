@@ -9,7 +9,6 @@ import numpy as np
 
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Material, hooke_coefficients
-from statorhom.model.broken.heights import Heights, stiffness_by_height
 from statorhom.model.broken.layers import Layers, radial_layers
 from statorhom.model.broken.pieces import Pieces, stiffness_pieces
 from statorhom.model.kept import Kept
@@ -18,7 +17,7 @@ from statorhom.study.regions import core_region
 MOST = 12  # sets of pieces that are kept
 LAYERS = 4  # an element, where the depth of a feature counts
 _LATEST = Kept(MOST)
-_Parts = TypeVar("_Parts", Pieces, Layers, Heights)
+_Parts = TypeVar("_Parts", Pieces, Layers)
 
 
 def region_pieces(mesh: HalfPitchMesh, region: str, material: Material) -> Pieces:
@@ -34,13 +33,13 @@ def region_pieces(mesh: HalfPitchMesh, region: str, material: Material) -> Piece
     return _kept(mesh, key, lambda: stiffness_pieces(mesh, {region: coefficients}))
 
 
-def pieces_by_height(mesh: HalfPitchMesh, region: str, coefficients: np.ndarray) -> Heights:
+def pieces_by_height(mesh: HalfPitchMesh, region: str, coefficients: np.ndarray) -> Layers:
     """The same of nine Hooke entries or of their change, Gauss points of every height apart.
 
     For what varies along the axis.
     """
     key = (id(mesh), "by height", region, *coefficients.tolist())
-    return _kept(mesh, key, lambda: stiffness_by_height(mesh, region, coefficients))
+    return _kept(mesh, key, lambda: radial_layers(mesh, region, coefficients, 1, by_height=True))
 
 
 def yoke_layers(mesh: HalfPitchMesh, material: Material, inner: float) -> Layers:

@@ -15,7 +15,7 @@ from statorhom.diagnose.predicted.prediction import PredictedMode
 from statorhom.diagnose.stages.stage_model import StageModel
 from statorhom.model.affine import hooke_coefficients
 from statorhom.model.broken.change import Change
-from statorhom.model.broken.heights import stiffness_by_height
+from statorhom.model.broken.layers import radial_layers
 from statorhom.model.broken.solve import BrokenModes, solve_broken
 from statorhom.model.broken.variations import gradient
 from statorhom.model.radial_profile import node_planes
@@ -34,8 +34,9 @@ def stack() -> StageModel:
 
 def uneven(stage: StageModel, slope: float) -> tuple[Change, ...]:
     mesh = stage.model.mesh
-    parts = stiffness_by_height(mesh, "lamination", hooke_coefficients(stage.reference["lamination"].hooke))
-    return (gradient(parts, mesh.slots, lambda z: slope * (2 * z / mesh.length - 1.0)),)
+    entries = hooke_coefficients(stage.reference["lamination"].hooke)
+    parts = radial_layers(mesh, "lamination", entries, 1, by_height=True)
+    return (gradient(parts, lambda z: slope * (2 * z / mesh.length - 1.0)),)
 
 
 def counted(stage: StageModel, modes: BrokenModes, number: int, order: int) -> int:

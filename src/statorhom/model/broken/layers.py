@@ -1,8 +1,9 @@
-"""Elements cut into radial layers, for a stiffness that differs in a part of an element's depth.
+"""Elements cut into radial layers and by height, for a stiffness that differs within an element.
 
 A soft strip that covers half of an element as if the whole were a little softer leaves the yoke far too stiff in
 bending, which asks how far from the middle the soft part lies. Integrated layer by layer, the element's own shape
-functions take it into account.
+functions take it into account. One of four elements along a core reaches over a quarter of it and more: if all of it
+had the stiffness of its middle, a gradient along the axis would tilt shapes by a fifth less than it does.
 """
 
 from __future__ import annotations
@@ -15,7 +16,6 @@ import numpy as np
 from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.assembly import CHUNK, element_geometry, stiffness_of
 from statorhom.model.broken.cells import Cells, cells
-from statorhom.model.broken.heights import heights_of
 from statorhom.model.broken.pieces import Pieces, element_dofs, elements_in
 from statorhom.model.element import REFERENCE_NODES, ShapeTable, gauss_table, layer_table
 
@@ -114,7 +114,8 @@ def _layered(place: Cells, upwards: np.ndarray, count: int) -> Cells:
 
 def _at_heights(place: Cells, nodes: np.ndarray) -> Cells:
     """Extents of layers whose Gauss points of every height are apart."""
-    heights = heights_of(nodes, gauss_table().by_height())
+    tables = gauss_table().by_height()
+    heights = np.stack([(nodes[..., 2] @ table.values.T).mean(axis=1) for table in tables], axis=1)
     layers = len(place.z) // len(nodes)
     z = np.repeat(heights, layers, axis=0).reshape(-1)
     angle, radius = (np.repeat(extent, heights.shape[1], axis=0) for extent in (place.angle, place.radius))

@@ -14,7 +14,6 @@ from statorhom.mesh.hex_mesh import HalfPitchMesh
 from statorhom.model.affine import Materials, hooke_coefficients
 from statorhom.model.broken.cells import Sectors, cells
 from statorhom.model.broken.change import PieceChange
-from statorhom.model.broken.heights import Heights
 from statorhom.model.broken.layers import Layers
 from statorhom.model.broken.pieces import Pieces, elements_in, mass_pieces, stiffness_pieces
 from statorhom.study.regions import core_region
@@ -63,16 +62,16 @@ def arc(pieces: Pieces, place: Sectors, start: float, end: float, ratio: float) 
     return PieceChange(pieces, None, (ratio - 1.0) * place.share_of_arc(start, end))
 
 
-def gradient(parts: Heights, slots: int, along: Callable[[np.ndarray], np.ndarray]) -> PieceChange:
+def gradient(parts: Layers, along: Callable[[np.ndarray], np.ndarray]) -> PieceChange:
     """A stiffness that varies along the axis.
 
     Parameters
     ----------
-    parts : of the elements, by height (`stiffness_by_height`): what a weight of one adds.
-    slots : of the stator.
+    parts : of the elements, by height (`radial_layers`): what a weight of one adds.
     along : weight at heights z (m).
     """
-    return PieceChange(parts.pieces, None, np.repeat(along(parts.z)[:, None], 2 * slots, axis=1))
+    weights = along(parts.place.z.mean(axis=1))
+    return PieceChange(parts.pieces, None, np.repeat(weights[:, None], 2 * parts.place.slots, axis=1))
 
 
 def region_stiffness(mesh: HalfPitchMesh, materials: Materials, regions: tuple[str, ...]) -> Pieces:

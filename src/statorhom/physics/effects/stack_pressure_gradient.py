@@ -58,7 +58,7 @@ class StackPressureGradient(Effect):
             along, weight = axial_modulus(material.hooke, surplus)
             sheared = np.where(SHEAR, hooke_coefficients(material.hooke), 0.0)
             normal, shear = (pieces_by_height(mesh, core, entries) for entries in (along, sheared))
-            return gradient(normal, mesh.slots, weight), gradient(shear, mesh.slots, surplus)
+            return gradient(normal, weight), gradient(shear, surplus)
 
         def examples(mesh: HalfPitchMesh, materials: Materials) -> tuple[tuple[Change, ...], ...]:
             return tuple(varied(mesh, materials, ratio) for ratio in TRAINED)
